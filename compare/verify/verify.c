@@ -157,18 +157,6 @@ static void add_distance(message *m, double d)
   else message_add(m, "%.1g", d);
 }
 
-static const char *slider_words(int restart)
-{
-  switch (restart) {
-  case HBM_RESTART_SAMPLE: return ", hbm.slider_restart: sample";
-  case HBM_RESTART_ZEROED: return ", w = 0 after a separation";
-  case HBM_RESTART_KEPT: return ", w kept over a separation";
-  case HBM_RESTART_ONE_PASS:
-  case HBM_RESTART_ONE_PASS_SAMPLE: return ", one period from w = 0";
-  default: return "";
-  }
-}
-
 /* "kt of contact 1 times 2", "the force at DOF 3", "M, C and K exchanged in DOFs 1 and 2": DOFs from 1, contacts from 0
  * as elsewhere. */
 static void add_change(message *m, const verify_equations *e)
@@ -204,7 +192,7 @@ static void add_equations(message *m, const verify_equations *e)
   if (e->odd_only) message_add(m, "odd harmonics alone, ");
   else if (!e->keep_mean) message_add(m, "hbm.static: false, ");
   message_add(m, "H = %d", e->harmonics);
-  if (e->samples) message_add(m, ", N = %d%s", e->samples, slider_words(e->restart));
+  if (e->samples) message_add(m, ", N = %d%s", e->samples, verify_sliders[e->restart].words);
 }
 
 static void add_causes(message *m, verify_causes bits)

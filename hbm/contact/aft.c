@@ -18,7 +18,7 @@ struct aft {
   int n_dof, n_contacts;
   moving_contact *contacts; /* [n_contacts] */
   int n_harm, n_time;
-  hbm_restart restart;
+  slider_rule slider;
   double *x, *f, *k;        /* [n_time]     displacement [length], force, its stiffness along the orbit */
   double *y;                /* [n_time]     of two coordinates the second */
   period_samples of;        /* its sample:  force of one contact */
@@ -33,9 +33,10 @@ struct aft {
 };
 
 /* n_dof = 1: all contacts are moved by one coordinate; 2: there is one, and the coordinates are its u and v. */
-static hc_status make_aft(int n_harm, int n_time, hbm_restart restart, int n_dof, int n_contacts,
-                          const moving_contact *contacts, aft **out)
+static hc_status make_aft(const evaluator_settings *how, int n_dof, int n_contacts, const moving_contact *contacts,
+                          aft **out)
 {
+  const int n_harm = how->n_harm, n_time = how->n_time;
   *out = NULL;
   if (n_harm < 1 || n_harm > HBM_MAX_HARMONICS || n_time < 2 * n_harm + 1) return HC_BAD_INPUT;
   if (n_dof < 1 || n_dof > 2 || n_contacts < 0 || (n_dof == 2 && n_contacts != 1)) return HC_BAD_INPUT;
@@ -43,7 +44,7 @@ static hc_status make_aft(int n_harm, int n_time, hbm_restart restart, int n_dof
   if (!a) return HC_NO_MEMORY;
   a->n_harm = n_harm;
   a->n_time = n_time;
-  a->restart = restart;
+  a->slider = how->slider;
   a->n_dof = n_dof;
   a->n_contacts = n_contacts;
   a->contacts = workspace_array(&a->memory, (size_t)n_contacts + 1, sizeof *a->contacts);
@@ -75,10 +76,11 @@ static hc_status make_aft(int n_harm, int n_time, hbm_restart restart, int n_dof
 
 hc_status aft_new_of_model(const model *m, hbm_restart restart, int n_harm, int n_time, aft **out)
 {
+  const evaluator_settings how = {.n_harm = n_harm, .n_time = n_time, .slider = {.restart = restart}};
   moving_contact *contacts;
   *out = NULL;
   hc_status st = moving_contacts_of_model(m, &contacts);
-  if (st == HC_OK) st = make_aft(n_harm, n_time, restart, 1, m->n_contacts, contacts, out);
+  if (st == HC_OK) st = make_aft(&how, 1, m->n_contacts, contacts, out);
   free(contacts);
   return st;
 }
@@ -227,7 +229,7 @@ hc_status aft_eval(aft *a, const double *X, double *F, double *jac, contact_repo
     slider_motion motion = {a->x, a->x, c->cu[0], c->cv[0], c->cu[0], c->cv[0]};
     if (a->n_dof > 1)
       motion = (slider_motion){a->x, a->y, 1, 1, 1, 0}; /* the force on u, where v is another coordinate */
-    slider_report found = slider_follow(&c->law, a->restart, a->n_time, &motion, f, again, s, a->settling);
+    slider_report found = slider_follow(&c->law, &a->slider, a->n_time, &motion, f, again, s, a->settling);
     a->n_intervals[j] = found.n_intervals;
     for (int i = 0; i < a->n_time && j > 0; ++i) a->f[i] += a->of.sample[i];
     contact_regime regime = regime_of(found.n_intervals, s);
@@ -256,7 +258,7 @@ void aft_sliders(const aft *a, double *w)
 static hc_status make(const contact_coordinates *c, const evaluator_settings *how, void **self)
 {
   aft *a;
-  const hc_status st = make_aft(how->n_harm, how->n_time, how->restart, c->n_dof, 1, &c->moved, &a);
+  const hc_status st = make_aft(how, c->n_dof, 1, &c->moved, &a);
   *self = a;
   return st;
 }

@@ -37,7 +37,7 @@ hc_status given_motion_force(const given_motion *m, hbm_restart restart, int n_t
 {
   const int n = series_length(m->n_harm), contacts = m->pair ? 2 : m->n_contacts;
   const size_t size = (size_t)m->n_dof * (size_t)n;
-  const evaluator_settings how = {.n_harm = m->n_harm, .n_time = n_time, .restart = restart};
+  const evaluator_settings how = {.n_harm = m->n_harm, .n_time = n_time, .slider = {.restart = restart}};
   contact_forces *f = NULL;
   contact_report report;
   placed_contact *placed = calloc((size_t)contacts + 1, sizeof *placed);

@@ -35,7 +35,7 @@ typedef enum planar_orbit {
 
 typedef struct planar_aft {
   int n_dof, n_harm, n_time;
-  hbm_restart restart;
+  slider_rule slider;
   contact law;         /* of a half */
   double *motion[3];   /* [n_time] u_1, u_2 and r (planar_slider.h), of a constant normal force the same everywhere */
   double *traction[2]; /* [n_time] [force] */
@@ -86,8 +86,8 @@ static hc_status make(const contact_coordinates *c, const evaluator_settings *ho
   if (c->n_dof < 2 || c->n_dof > 3 || !contact_has_friction(law)) return HC_BAD_INPUT;
   planar_aft *a = calloc(1, sizeof *a);
   if (!a) return HC_NO_MEMORY;
-  *a = (planar_aft){
-      .n_dof = c->n_dof, .n_harm = how->n_harm, .n_time = how->n_time, .restart = how->restart, .law = *law};
+  *a =
+      (planar_aft){.n_dof = c->n_dof, .n_harm = how->n_harm, .n_time = how->n_time, .slider = how->slider, .law = *law};
   const size_t n = (size_t)a->n_time, length = (size_t)series_length(a->n_harm), n_col = (size_t)a->n_dof * length + 2;
   workspace *w = &a->memory;
   for (int d = 0; d < 3; ++d) a->motion[d] = workspace_doubles(w, n);
@@ -126,7 +126,8 @@ static planar_move planar_aft_step(const planar_aft *a, int i, bool entering, do
 {
   const planar_sample from = planar_aft_sample(a, i ? i - 1 : a->n_time - 1), to = planar_aft_sample(a, i);
   if (entering && i == 0 && from.r > 0 && to.r > 0) return planar_slider_enter(&to, w, slope);
-  return planar_slider_step(a->restart, &from, &to, w, slope);
+  const planar_rule *other = a->slider.in_plane;
+  return other ? other->step(&from, &to, w, slope) : planar_slider_step(a->slider.restart, &from, &to, w, slope);
 }
 
 typedef struct period {
@@ -146,7 +147,7 @@ static period drag(planar_aft *a, bool entering, bool again, bool differentiated
     if (!same) {
       const planar_move move = planar_aft_step(a, i, entering, w, differentiated ? &slope : NULL);
       const double kt = move == PLANAR_APART ? 0 : a->law.kt;
-      same = again && (move != PLANAR_APART || planar_slider_forgets(a->restart));
+      same = again && (move != PLANAR_APART || !a->slider.keeps);
       for (int d = 0; d < 2; ++d) {
         const double traction = kt * (a->motion[d][i] - w[d]);
         same &= traction == a->traction[d][i];
@@ -216,7 +217,7 @@ static hc_status close_orbit(planar_aft *a, bool apart, bool near_orbit, double 
   for (a->passes = 1; a->passes < PLANAR_AFT_PASSES; ++a->passes) {
     memcpy(a->start, w, sizeof a->start);
     const bool guesses = near_orbit || a->passes >= PLANAR_PLAIN_PASSES, again = a->passes > 1 || !near_orbit;
-    const period p = drag(a, false, again && !stepped, guesses && !(apart && planar_slider_forgets(a->restart)), w);
+    const period p = drag(a, false, again && !stepped, guesses && !(apart && !a->slider.keeps), w);
     if (stepped && !p.slips && share == 1) {
       share = 0.9, stepped = false, before = missed = INFINITY;
       memcpy(w, back, sizeof back);
@@ -242,11 +243,8 @@ static hc_status close_orbit(planar_aft *a, bool apart, bool near_orbit, double 
 
 /* ---- rest ----------------------------------------------------------------------------------------------- */
 
-/* Other programs march, and so does what repeats their habits. */
-static bool rests_where_nearest(const planar_aft *a)
-{
-  return a->restart == HBM_RESTART_INTERPOLATED || a->restart == HBM_RESTART_SAMPLE;
-}
+/* By our own rules; others march. */
+static bool rests_where_nearest(const planar_aft *a) { return !a->slider.in_plane && !a->slider.once; }
 
 /* a->rest: of the motion itself, not of its samples, between which an instant where a disc holds the slider would
  * jump. */
@@ -308,7 +306,7 @@ static hc_status evaluate(void *self, const double *X, double *F, double *jac, c
   double least = a->motion[2][0];
   for (int i = 1; i < a->n_time; ++i) least = fmin(least, a->motion[2][i]);
   const bool apart = !(least > 0);
-  const bool once = a->restart == HBM_RESTART_ONE_PASS || a->restart == HBM_RESTART_ONE_PASS_SAMPLE;
+  const bool once = a->slider.once;
   double w[2] = {a->start[0], a->start[1]};
   const bool near_orbit = a->orbit == PLANAR_CLOSED && !once && !apart;
   hc_status st = near_orbit ? close_orbit(a, apart, true, w, size) : HC_NOT_CLOSED;
@@ -383,7 +381,7 @@ static void clear_rows(planar_aft *a)
 static void differentiate_step(planar_aft *a, int i, planar_move move, const planar_slope *slope, bool forces)
 {
   if (move != PLANAR_HELD && forces) subtract_held(a);
-  if (move == PLANAR_APART && planar_slider_forgets(a->restart)) clear_rows(a);
+  if (move == PLANAR_APART && !a->slider.keeps) clear_rows(a);
   if (move == PLANAR_SLIPPED || move == PLANAR_PLACED) {
     harmonics_at(a, i ? i - 1 : a->n_time - 1, a->basis[0]);
     harmonics_at(a, i, a->basis[1]);

@@ -7,13 +7,13 @@
  * r is taken without a bound on N, so that it falls through 0 where contact is lost. Two rules:
  *     along the line   between samples u and r change evenly, and the law is followed exactly: as the restart
  *                      `interpolated` does with one tangent. Error of order 2 in the step.
- *     radial return    the slider stays or goes straight to the circle about the next sample: as other programs do,
- *                      with the restart `sample` and the mistakes that hbm_settings.h lists. Order 1 where the
- *                      direction of slip turns, as each step takes the direction that it ends with.
+ *     radial return    the slider stays or goes straight to the circle about the next sample: with the restart
+ *                      `sample`, and as other programs do. Order 1 where the direction of slip turns, as each step
+ *                      takes the direction that it ends with.
  * On a straight motion both are the law of one tangent. libm only, nothing is allocated, cannot fail. */
 #pragma once
 
-#include "hbm/hbm_settings.h"
+#include "hbm/contact/slider.h"
 
 /* A sample of the motion: u [length], r [length] as above. */
 typedef struct planar_sample {
@@ -37,8 +37,10 @@ typedef struct planar_slope {
 planar_move planar_slider_step(hbm_restart restart, const planar_sample *from, const planar_sample *to, double w[2],
                                planar_slope *slope);
 
+/* The same as it is plugged in. */
+typedef struct planar_rule {
+  planar_move (*step)(const planar_sample *from, const planar_sample *to, double w[2], planar_slope *slope);
+} planar_rule;
+
 /* w put into the circle about `to`, at once: how the first of all periods begins. */
 planar_move planar_slider_enter(const planar_sample *to, double w[2], planar_slope *slope);
-
-/* Does the slider forget where it was when contact is lost? By HBM_RESTART_KEPT it does not. */
-static inline bool planar_slider_forgets(hbm_restart restart) { return restart != HBM_RESTART_KEPT; }

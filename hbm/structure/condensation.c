@@ -17,7 +17,7 @@ struct condensation {
   double more_mass;       /* [1/mass] n/trace M */
   /* at the omega asked for last; of harmonic h at [h] */
   double omega, more_damping;
-  bool hysteretic; /* condensation_make_hysteretic */
+  condensation_damping *damping; /* NULL: viscous, i h omega C */
   bool known;
   bool loaded;               /* without a rest: loads, the same at every omega but for inertial ones, are there */
   bool *by_compliance;       /* [n_harm + 1] the harmonic is by it */
@@ -39,7 +39,8 @@ struct condensation {
 static condensation_change dynamic_at(const condensation *c, int h)
 {
   const double w = h * c->omega;
-  return (condensation_change){-w * w + I * (w * c->more_damping * c->more_mass), I * (c->hysteretic ? h > 0 : w), 0};
+  const double complex of_C = c->damping ? c->damping(h, c->omega, &(double complex){0}) : I * w;
+  return (condensation_change){-w * w + I * (w * c->more_damping * c->more_mass), of_C, 0};
 }
 
 static size_t entry(const condensation *c, int row, int column)
@@ -110,9 +111,9 @@ void condensation_free(condensation *c)
   free(c);
 }
 
-void condensation_make_hysteretic(condensation *c)
+void condensation_damp(condensation *c, condensation_damping *damping)
 {
-  c->hysteretic = true;
+  c->damping = damping;
   compliance_free(c->compliance); /* knows viscous damping alone */
   c->compliance = NULL;
 }
@@ -321,8 +322,9 @@ const double complex *condensation_load(const condensation *c, int i)
 
 condensation_change condensation_by_omega(const condensation *c, int h)
 {
-  return (condensation_change){-2.0 * h * h * c->omega + I * (h * c->more_damping * c->more_mass),
-                               c->hysteretic ? 0 : I * h, 2 / c->omega};
+  double complex of_C = I * h;
+  if (c->damping) c->damping(h, c->omega, &of_C);
+  return (condensation_change){-2.0 * h * h * c->omega + I * (h * c->more_damping * c->more_mass), of_C, 2 / c->omega};
 }
 
 condensation_change condensation_by_damping(const condensation *c, int h)

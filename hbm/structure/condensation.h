@@ -26,8 +26,9 @@ typedef struct condensation condensation;
 hc_status condensation_new(const model *m, int n_harm, condensation **out);
 void condensation_free(condensation *c); /* NULL is allowed */
 
-/* From now on the damping force of harmonic h > 0 is i C x at every frequency: a mistake that compare/verify/ makes. */
-void condensation_make_hysteretic(condensation *c);
+/* From now on C has this factor in Z of harmonic h, *by_omega being its derivative, in the place of i h omega. */
+typedef double complex condensation_damping(int h, double omega, double complex *by_omega);
+void condensation_damp(condensation *c, condensation_damping *damping);
 
 /* How many coordinates q there are. */
 int condensation_dim(const condensation *c);

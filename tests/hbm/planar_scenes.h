@@ -1,6 +1,7 @@
 /* planar_scenes.h - contacts with two tangents, and motions in their plane, for tests. */
 #pragma once
 
+#include "compare/verify/equations/mistakes.h"
 #include "hbm/contact/aft.h"
 #include "hbm/contact/exact_force.h"
 #include "hbm/planar/planar_aft.h"
@@ -19,7 +20,7 @@ static inline contact circle_half(contact whole)
 static inline hc_status make_sampled(int H, int N, hbm_restart restart, int n_dof, const contact *half, void **out)
 {
   const contact_coordinates c = {.n_dof = n_dof, .moved = {.law = *half}};
-  const evaluator_settings how = {.n_harm = H, .n_time = N, .restart = restart};
+  const evaluator_settings how = {.n_harm = H, .n_time = N, .slider = {.restart = restart}};
   return planar_aft_evaluator.make(&c, &how, out);
 }
 
@@ -101,16 +102,15 @@ typedef struct planar_way {
   double rounding; /* [1] of a line's forces */
 } planar_way;
 
-static const hbm_restart planar_restarts[] = {HBM_RESTART_INTERPOLATED, HBM_RESTART_SAMPLE,
-                                              HBM_RESTART_ZEROED,       HBM_RESTART_KEPT,
-                                              HBM_RESTART_ONE_PASS,     HBM_RESTART_ONE_PASS_SAMPLE};
+static const verify_slider planar_restarts[] = {SLIDER_INTERPOLATED, SLIDER_ON_SAMPLE, SLIDER_ZEROED,
+                                                SLIDER_KEPT,         SLIDER_ONE_PASS,  SLIDER_ONE_PASS_SAMPLE};
 enum { PLANAR_RESTARTS = sizeof planar_restarts / sizeof *planar_restarts };
 
-static inline void *planar_way_make(const contact_evaluator *by, int H, int N, hbm_restart restart, int n_dof,
+static inline void *planar_way_make(const contact_evaluator *by, int H, int N, verify_slider slider, int n_dof,
                                     const moving_contact *moved)
 {
   const contact_coordinates c = {.n_dof = n_dof, .moved = *moved};
-  const evaluator_settings how = {.n_harm = H, .n_time = N, .restart = restart};
+  const evaluator_settings how = {.n_harm = H, .n_time = N, .slider = verify_sliders[slider].rule};
   CHECK_MADE(void, self, by->make(&c, &how, &self));
   return self;
 }
@@ -156,7 +156,7 @@ static inline void check_on_line(const planar_way *way)
   double U[2 * CIRCLE_MAX_LENGTH], d[2 * CIRCLE_MAX_LENGTH], X[CIRCLE_MAX_X], F[CIRCLE_MAX_X], G[2 * CIRCLE_MAX_LENGTH];
   for (int trial = 0; trial < 600; ++trial) {
     const int H = 1 + trial % 9, N = 2 * H + 20 + 7 * (trial % 40), n = series_length(H);
-    const hbm_restart restart = planar_restarts[trial % PLANAR_RESTARTS];
+    const verify_slider restart = planar_restarts[trial % PLANAR_RESTARTS];
     const double angle = PI * random_signed(&seed), dir[2] = {cos(angle), sin(angle)};
     const contact law = random_circle(&seed);
     const int n_dof = law.kn > 0 ? 3 : 2;
@@ -172,7 +172,7 @@ static inline void check_on_line(const planar_way *way)
     /* A place of rest in a plane is that of the motion itself, of a line that of its samples: off by the second
      * derivative times step^2/8 at the most, slopes by that times a step. */
     const bool rests = way->sampled && in_plane.regime == CONTACT_STUCK &&
-                       (restart == HBM_RESTART_INTERPOLATED || restart == HBM_RESTART_SAMPLE);
+                       (restart == SLIDER_INTERPOLATED || restart == SLIDER_ON_SAMPLE);
     const double motion = sum_abs(2 * n, U), step = rests ? 2 * PI * H / N : 0,
                  part = fmax(way->rounding, step * step / 8), tolerance = part * circle_force_size(&law, motion);
     for (int i = 0; i < n; ++i) {
@@ -266,9 +266,9 @@ static inline void check_planar_jacobian(const planar_way *way)
     const moving_contact half = {.law = circle_half(law)};
     const int n_dof = law.kn > 0 ? 3 : 2, rows = n_dof * n;
     const bool corner = trial == 330; /* by radial return it comes to stick where two samples' circles meet */
-    const hbm_restart restart = corner            ? HBM_RESTART_SAMPLE
-                                : trial % 12 == 7 ? HBM_RESTART_RADIAL
-                                                  : planar_restarts[trial % PLANAR_RESTARTS];
+    const verify_slider restart = corner            ? SLIDER_ON_SAMPLE
+                                  : trial % 12 == 7 ? SLIDER_RADIAL
+                                                    : planar_restarts[trial % PLANAR_RESTARTS];
     planar_evaluation a = {way->by, planar_way_make(way->by, H, N, restart, n_dof, &half)};
     contact_report report;
     random_plane_motion(&seed, H, 1, X);

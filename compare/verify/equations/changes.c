@@ -414,7 +414,7 @@ static bool any_preload(const model *m)
 
 /* p[n]: room for a constant force. */
 static hc_status change_copy(const model *m, const verify_changed *how, bool keep_mean, double *p, model *own,
-                             double *offset, hbm_mistakes *mistakes)
+                             double *offset, verify_mistakes *mistakes)
 {
   const verify_change c = how->change;
   const int which = how->which - 1;
@@ -456,8 +456,8 @@ static hc_status change_copy(const model *m, const verify_changed *how, bool kee
     const bool rubs = j < 32 && contact_has_friction(&one->law);
     if (c == CHANGE_FRICTION_SIGN && rubs && meant) mistakes->turned |= 1U << j;
     if (c == CHANGE_FRICTION_SIGN && one->law.smooth != CONTACT_KINKED && meant) one->law.mu = -one->law.mu;
-    if (c == CHANGE_SLIDER_MEAN && rubs) mistakes->mean = HBM_FRICTION_MEAN_OF_U;
-    if (c == CHANGE_FRICTION_MEAN && rubs) mistakes->mean = HBM_FRICTION_NO_MEAN;
+    if (c == CHANGE_SLIDER_MEAN && rubs) mistakes->mean = FRICTION_MEAN_OF_U;
+    if (c == CHANGE_FRICTION_MEAN && rubs) mistakes->mean = FRICTION_NO_MEAN;
   }
   if (c == CHANGE_STUCK && same_numbers(n * n, m->stiffness, own->stiffness)) return HC_BAD_INPUT; /* no contact */
   if ((of_power || c == CHANGE_EPSILON) && !there) return HC_BAD_INPUT;
@@ -481,7 +481,7 @@ static hc_status change_copy(const model *m, const verify_changed *how, bool kee
 }
 
 hc_status verify_changed_model(const model *m, const verify_changed *how, bool keep_mean, model **out, double *offset,
-                               hbm_mistakes *mistakes)
+                               verify_mistakes *mistakes)
 {
   const verify_change c = how->change;
   const bool constant = c >= CHANGE_CONSTANT_N && c <= CHANGE_CONSTANT_LIMIT_LINEAR;
@@ -493,6 +493,11 @@ hc_status verify_changed_model(const model *m, const verify_changed *how, bool k
   hc_status st = doubles(c) ? double_contacts(m, c, keep_mean, p, out, offset) : model_copy(m, out);
   if (st == HC_OK && c != CHANGE_NONE && !doubles(c)) st = change_copy(m, how, keep_mean, p, *out, offset, mistakes);
   free(p);
+  for (int l = 0; st == HC_OK && mistakes->odd_only && l < (*out)->n_loads; ++l) {
+    model_load *load = &(*out)->loads[l];
+    if (load->harmonic > 0 && load->harmonic % 2 == 0)
+      scale((size_t)m->n, 0, load->cosine), scale((size_t)m->n, 0, load->sine);
+  }
   if (st == HC_OK) return HC_OK;
   model_free(*out);
   *out = NULL;

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "compare/verify/equations/causes.h"
-#include "hbm/hbm_settings.h"
+#include "compare/verify/equations/mistakes.h"
 #include "model/model.h"
 
 /* What of a model a change is of: all of it, every contact or a single one of several, a single contact at a time (or
@@ -120,4 +120,4 @@ typedef struct verify_changed {
  * the equations. Without harmonic 0 no constant force matters. HC_BAD_INPUT: it changes nothing of this model, or makes
  * no sense in it; HC_NO_MEMORY: *out is NULL. */
 hc_status verify_changed_model(const model *m, const verify_changed *how, bool keep_mean, model **out, double *offset,
-                               hbm_mistakes *mistakes);
+                               verify_mistakes *mistakes);

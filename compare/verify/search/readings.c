@@ -452,20 +452,6 @@ static bool too_few_harmonics(const search *s, const verify_equations *e, int fr
   return false;
 }
 
-/* A mistake about the slider is one whatever the samples: they are a cause, too, of readings that fewer than
- * SEARCH_MOST_SAMPLES bring closer. */
-static verify_causes causes_of_slider(const verify_equations *e)
-{
-  switch (e->restart) {
-  case HBM_RESTART_ZEROED: return VERIFY_BIT(CAUSE_SLIDER_ZEROED);
-  case HBM_RESTART_KEPT: return VERIFY_BIT(CAUSE_SLIDER_KEPT);
-  case HBM_RESTART_ONE_PASS:
-  case HBM_RESTART_ONE_PASS_SAMPLE: return VERIFY_BIT(CAUSE_SINGLE_PASS);
-  case HBM_RESTART_SAMPLE: return VERIFY_BIT(CAUSE_SAMPLES) | VERIFY_BIT(CAUSE_SLIDER);
-  default: return VERIFY_BIT(CAUSE_SAMPLES);
-  }
-}
-
 static verify_causes causes_of(const search *s, const verify_equations *e, int frequency)
 {
   verify_causes causes = frequency ? VERIFY_BIT(CAUSE_FREQUENCY) : 0;
@@ -473,7 +459,10 @@ static verify_causes causes_of(const search *s, const verify_equations *e, int f
   if (verify_equations_linear(e)) return causes;
   if (e->odd_only) causes |= VERIFY_BIT(CAUSE_ODD_ONLY);
   else if (!e->keep_mean) causes |= VERIFY_BIT(CAUSE_NO_STATIC);
-  if (e->samples) causes |= causes_of_slider(e);
+  /* A mistake in following the slider is one whatever the samples: they are a cause, too, of readings that fewer than
+   * SEARCH_MOST_SAMPLES bring closer. */
+  if (e->samples) causes |= verify_sliders[e->restart].causes;
+  if (e->samples && e->restart < SLIDER_ZEROED) causes |= VERIFY_BIT(CAUSE_SAMPLES);
   return causes | (too_few_harmonics(s, e, frequency) ? VERIFY_BIT(CAUSE_HARMONICS) : 0);
 }
 
@@ -547,7 +536,7 @@ void search_read_distances(search *s, const verify_equations *e, int frequency, 
                            const double *d_solved)
 {
   const double *plain = plain_distances(s, e, frequency);
-  double *const most = e->restart >= HBM_RESTART_ZEROED ? s->most_samples[e->restart] : NULL;
+  double *const most = e->restart >= SLIDER_ZEROED ? s->most_samples[e->restart] : NULL;
   const verify_sample *p = &s->points;
   const verify_quantity *asked = &p->quantity[p->first];
   const verify_causes otherwise = e->harmonics < s->out->harmonics ? VERIFY_BIT(CAUSE_HARMONICS) : 0;

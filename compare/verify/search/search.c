@@ -321,9 +321,9 @@ static hc_status try_rate(search *s, const base *b, int samples, int restart)
 
 static hc_status try_rates(search *s, const base *b, int n, const int *samples, int last_restart)
 {
-  static const hbm_restart rules[] = {HBM_RESTART_INTERPOLATED, HBM_RESTART_SAMPLE, HBM_RESTART_RADIAL};
+  static const verify_slider rules[] = {SLIDER_INTERPOLATED, SLIDER_ON_SAMPLE, SLIDER_RADIAL};
   const bool planar = model_whole_contacts(s->setup->model) < s->setup->model->n_contacts;
-  const int n_rules = planar ? 3 : last_restart == HBM_RESTART_SAMPLE ? 2 : 1;
+  const int n_rules = planar ? 3 : last_restart == SLIDER_ON_SAMPLE ? 2 : 1;
   hc_status st = HC_OK;
   for (int i = 0; i < n && st == HC_OK; ++i)
     for (int k = n_rules - 1; k >= 0 && st == HC_OK; --k) st = try_rate(s, b, samples[i], rules[k]);
@@ -390,7 +390,7 @@ static hc_status try_bases(search *s)
   s->expected = s->done + 2 * n * POWERS_OF_TWO + 4 * SAMPLES_TRIED;
   for (int i = 0; i < n && st == HC_OK; ++i) {
     const bool own = s->orders[bases[i]].harmonics == s->own;
-    st = try_order_sampled(s, bases[i], own ? SAMPLES_TRIED : POWERS_OF_TWO, samples_tried, HBM_RESTART_SAMPLE);
+    st = try_order_sampled(s, bases[i], own ? SAMPLES_TRIED : POWERS_OF_TWO, samples_tried, SLIDER_ON_SAMPLE);
   }
   return st;
 }
@@ -405,7 +405,7 @@ static hc_status try_near_likeliest(search *s)
   top.samples = 0;
   hc_status st = base_solve(s, &top, s->frequency, &b);
   if (st == HC_OK && top.harmonics != s->own)
-    st = try_rates(s, &b, SAMPLES_TRIED - POWERS_OF_TWO, samples_tried + POWERS_OF_TWO, HBM_RESTART_SAMPLE);
+    st = try_rates(s, &b, SAMPLES_TRIED - POWERS_OF_TWO, samples_tried + POWERS_OF_TWO, SLIDER_ON_SAMPLE);
   top = s->likely[0];
   const bool same = top.harmonics == b.equations.harmonics && top.keep_mean == b.equations.keep_mean;
   for (int d = -AROUND; d <= AROUND && same && st == HC_OK && !search_explained(s); ++d)
@@ -422,7 +422,7 @@ static hc_status try_likeliest_with_orders(search *s)
   const verify_equations top = s->likely[0];
   for (int i = 0; i < s->n_orders && st == HC_OK && !search_explained(s); ++i)
     if (s->orders[i].keep_mean == top.keep_mean && s->orders[i].harmonics != top.harmonics)
-      st = try_order_sampled(s, i, 1, &top.samples, HBM_RESTART_SAMPLE);
+      st = try_order_sampled(s, i, 1, &top.samples, SLIDER_ON_SAMPLE);
   return st;
 }
 
@@ -437,8 +437,8 @@ static hc_status try_small(search *s)
     int n = 0;
     while (n < (int)(sizeof rates / sizeof *rates) && rates[n] <= SMALL * harmonics) ++n;
     if (harmonics > SMALL || harmonics == s->own) continue;
-    st = try_order_sampled(s, i, n, rates, HBM_RESTART_INTERPOLATED);
-    if (st == HC_OK) st = try_order_sampled(s, i, 3, least, HBM_RESTART_INTERPOLATED);
+    st = try_order_sampled(s, i, n, rates, SLIDER_INTERPOLATED);
+    if (st == HC_OK) st = try_order_sampled(s, i, 3, least, SLIDER_INTERPOLATED);
   }
   return st;
 }
@@ -465,8 +465,8 @@ static hc_status try_sliders(search *s)
     const verify_equations e = search_equations(orders[k], true);
     base b;
     st = base_solve(s, &e, 0, &b);
-    for (int i = 0; i <= HBM_RESTART_ONE_PASS_SAMPLE; ++i) fill(SEARCH_DISTANCES, INFINITY, s->most_samples[i]);
-    for (int restart = HBM_RESTART_ZEROED; restart <= HBM_RESTART_ONE_PASS_SAMPLE && st == HC_OK; ++restart)
+    for (int i = 0; i <= SLIDER_ONE_PASS_SAMPLE; ++i) fill(SEARCH_DISTANCES, INFINITY, s->most_samples[i]);
+    for (int restart = SLIDER_ZEROED; restart <= SLIDER_ONE_PASS_SAMPLE && st == HC_OK; ++restart)
       for (size_t i = 0; i < sizeof rates / sizeof *rates && st == HC_OK; ++i) st = try_rate(s, &b, rates[i], restart);
     verify_solutions_clear(&b.exact);
   }

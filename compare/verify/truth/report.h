@@ -15,7 +15,7 @@ typedef struct verify_equations {
   bool keep_mean, odd_only;
   int harmonics;
   int samples; /* 0: exact forces */
-  int restart; /* hbm_restart, for samples */
+  int restart; /* for samples: verify_slider, whose first are hbm_restart */
 } verify_equations;
 
 /* Have they no forces that harmonics or samples could be too few for? */

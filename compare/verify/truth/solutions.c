@@ -18,9 +18,7 @@ compare_setup verify_settings(const compare_setup *setup, const verify_equations
   own.hbm.keep_mean = e->keep_mean;
   own.hbm.force = e->samples ? HBM_FORCE_SAMPLED : HBM_FORCE_EXACT;
   own.hbm.samples = e->samples ? e->samples : 1024;
-  own.hbm.restart = e->restart;
   own.hbm.continuation = HBM_CONTINUATION_AUTO;
-  own.hbm.mistakes = (hbm_mistakes){.odd_only = e->odd_only};
   return own;
 }
 
@@ -82,6 +80,7 @@ hc_status verify_motion_of_solution(hbm_solver *hbm, double omega, const double 
 
 /* Equations ready to be solved. */
 typedef struct problem {
+  verify_mistakes wrong;
   hbm_solver *hbm;
   int dofs, first_dof;                      /* of the responses that is the motion of the first */
   double *offset, *X;                       /* [responses] [length] theirs are the solver's plus these; [n_coef] */
@@ -99,14 +98,14 @@ static hc_status problem_new(const compare_setup *setup, const verify_equations 
 {
   compare_setup own = verify_settings(setup, e);
   model *theirs;
-  *out = (problem){.dofs = setup->model->n, .first_dof = setup->model->n_responses - setup->model->n};
+  *out = (problem){.wrong = {.slider = (verify_slider)e->restart, .odd_only = e->odd_only},
+                   .dofs = setup->model->n,
+                   .first_dof = setup->model->n_responses - setup->model->n};
   if (!(out->offset = calloc((size_t)setup->model->n_responses, sizeof *out->offset))) return HC_NO_MEMORY;
   const verify_changed how = {e->change, e->factor, e->which};
-  hc_status st =
-      verify_changed_model(setup->model, &how, e->keep_mean && !e->odd_only, &theirs, out->offset, &own.hbm.mistakes);
+  hc_status st = verify_changed_model(setup->model, &how, e->keep_mean, &theirs, out->offset, &out->wrong);
   if (st != HC_OK) return st;
-  const hbm_mistakes *wrong = &own.hbm.mistakes;
-  if (wrong->mean_error != 0 || wrong->turned || wrong->mean || wrong->hysteretic) own.hbm.skip_linear = false;
+  verify_plug_in(&out->wrong, &own.hbm);
   st = guided_hbm_solver_new(theirs, &own.hbm, &out->hbm);
   model_free(theirs);
   if (st == HC_OK && !(out->X = calloc((size_t)hbm_n_coefficients(out->hbm), sizeof *out->X))) st = HC_NO_MEMORY;

@@ -16,11 +16,11 @@ static model *of_case(const char *path)
   return m;
 }
 
-static model *changed(const model *m, verify_change change, double factor, int which, hbm_mistakes *mistakes)
+static model *changed(const model *m, verify_change change, double factor, int which, verify_mistakes *mistakes)
 {
   const verify_changed how = {change, factor, which};
   double offset[8];
-  *mistakes = (hbm_mistakes){0};
+  *mistakes = (verify_mistakes){0};
   assert_true(m->n_responses <= 8);
   CHECK_MADE(model, out, verify_changed_model(m, &how, true, &out, offset, mistakes));
   return out;
@@ -31,7 +31,7 @@ static model *changed(const model *m, verify_change change, double factor, int w
 static void damping_of_one_ratio(CHECK_STATE)
 {
   model *m = of_case("cases/structures/chain3.yaml");
-  hbm_mistakes none;
+  verify_mistakes none;
   model *theirs = changed(m, CHANGE_DAMPING_MODAL, 1.5, 0, &none);
   const double root = sqrt(2), mean = (sqrt(2 - root) + root + sqrt(2 + root)) / 3, z = 1.5 * 0.01 * mean;
   for (int i = 0; i < DOFS; ++i)
@@ -59,11 +59,11 @@ static void damping_of_a_matrix(CHECK_STATE)
   model *m = of_case("cases/structures/chain3.yaml"), *none;
   const verify_changed of_its_kind = {CHANGE_DAMPING_OF_K, 3, 0};
   double offset[8];
-  hbm_mistakes nothing = {0};
+  verify_mistakes nothing = {0};
   assert_int_equal(verify_changed_model(m, &of_its_kind, true, &none, offset, &nothing), HC_BAD_INPUT);
   m->damping[0] += 0.02, m->damping[4] -= 0.02; /* no longer proportional to K, of the same trace */
   for (size_t a = 0; a < sizeof all / sizeof *all; ++a) {
-    hbm_mistakes mistakes;
+    verify_mistakes mistakes;
     model *theirs = changed(m, all[a].change, 3, 0, &mistakes);
     const double *like = all[a].of_mass ? m->mass : m->stiffness;
     for (int i = 0; i < ENTRIES; ++i) CHECK_NEAR(theirs->damping[i], 3 * all[a].share * like[i], rounding, "%d", i);
@@ -78,21 +78,21 @@ static void friction_of_the_other_sign(CHECK_STATE)
 {
   static const unsigned turned[] = {3, 1, 2};
   model *m = of_case("cases/structures/chain3.yaml");
-  hbm_mistakes mistakes;
+  verify_mistakes mistakes;
   double offset[8];
   for (int which = 0; which < 3; ++which) {
     model_free(changed(m, CHANGE_FRICTION_SIGN, 1, which, &mistakes));
     assert_int_equal(mistakes.turned, turned[which]);
-    assert_int_equal(mistakes.mean, HBM_FRICTION_MEAN);
+    assert_int_equal(mistakes.mean, FRICTION_MEAN);
   }
   const verify_changed stop = {CHANGE_FRICTION_SIGN, 1, 3};
   model *theirs;
-  mistakes = (hbm_mistakes){0};
+  mistakes = (verify_mistakes){0};
   assert_int_equal(verify_changed_model(m, &stop, true, &theirs, offset, &mistakes), HC_BAD_INPUT);
   model_free(changed(m, CHANGE_SLIDER_MEAN, 1, 0, &mistakes));
-  assert_int_equal(mistakes.mean, HBM_FRICTION_MEAN_OF_U);
+  assert_int_equal(mistakes.mean, FRICTION_MEAN_OF_U);
   model_free(changed(m, CHANGE_FRICTION_MEAN, 1, 0, &mistakes));
-  assert_int_equal(mistakes.mean, HBM_FRICTION_NO_MEAN);
+  assert_int_equal(mistakes.mean, FRICTION_NO_MEAN);
   assert_int_equal(mistakes.turned, 0);
   model_free(m);
 }
@@ -101,7 +101,7 @@ static void friction_of_the_other_sign(CHECK_STATE)
 static void a_contact_is_turned(CHECK_STATE)
 {
   model *m = of_case("cases/structures/wedge_F10.yaml");
-  hbm_mistakes none;
+  verify_mistakes none;
   const double angle = 20 * 3.14159265358979324 / 180, c = cos(angle), s = sin(angle);
   model *theirs = changed(m, CHANGE_TURNED, 20, 2, &none);
   for (int j = 0; j < 2; ++j)
@@ -119,7 +119,7 @@ static void matrices_are_numbered_otherwise(CHECK_STATE)
 {
   static const int place[DOFS] = {2, 1, 0}, first = 0, last = 2;
   model *m = of_case("cases/structures/chain3.yaml");
-  hbm_mistakes none;
+  verify_mistakes none;
   for (int i = 0; i < ENTRIES; ++i) m->mass[i] += 0.01 * i, m->damping[i] += 0.02 * i, m->stiffness[i] += 0.03 * i;
   model *theirs = changed(m, CHANGE_MATRICES_EXCHANGED, 1, 1 + DOFS * first + last, &none);
   for (int k = 0; k < DOFS; ++k)
