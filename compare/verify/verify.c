@@ -178,7 +178,8 @@ static void add_change(message *m, const verify_equations *e)
       message_add(m, " of harmonic %d at DOF %d", (e->which - 1) / e->n, (e->which - 1) % e->n + 1);
       break;
     case PART_PAIR: message_add(m, " DOFs %d and %d", (e->which - 1) / e->n + 1, (e->which - 1) % e->n + 1); break;
-    case PART_ALL: break;
+    case PART_ALL:
+    case PART_SLIDER: break;
     }
   if (verify_changes[e->change].scan == SCAN_FACTOR) message_add(m, " times %.4g", e->factor);
   if (verify_changes[e->change].scan == SCAN_TURN) message_add(m, " by %.4g degrees", e->factor);
@@ -192,7 +193,7 @@ static void add_equations(message *m, const verify_equations *e)
   if (e->odd_only) message_add(m, "odd harmonics alone, ");
   else if (!e->keep_mean) message_add(m, "hbm.static: false, ");
   message_add(m, "H = %d", e->harmonics);
-  if (e->samples) message_add(m, ", N = %d%s", e->samples, verify_sliders[e->restart].words);
+  if (e->samples) message_add(m, ", N = %d%s", e->samples, verify_slider_kind(e)->words);
 }
 
 static void add_causes(message *m, verify_causes bits)

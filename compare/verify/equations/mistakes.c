@@ -60,13 +60,12 @@ static planar_move step_kept(const planar_sample *from, const planar_sample *to,
   return to->r > 0 ? planar_slider_enter(to, w, slope) : PLANAR_APART;
 }
 
-static const planar_rule radial_return = {step_radially}, zeroed = {step_zeroed}, kept = {step_kept};
-
-const verify_slider_kind verify_sliders[] = {
-#define VERIFY_SLIDER_ROW(code, causes, words, ...) {causes, words, __VA_ARGS__},
-    VERIFY_SLIDER_LIST(VERIFY_SLIDER_ROW)
-#undef VERIFY_SLIDER_ROW
-};
+const slider_rule verify_on_line = {.restart = HBM_RESTART_INTERPOLATED},
+                  verify_on_sample = {.restart = HBM_RESTART_SAMPLE},
+                  verify_radial = {.in_plane = &(const planar_rule){step_radially}},
+                  verify_zeroed = {.touch = zero, .in_plane = &(const planar_rule){step_zeroed}},
+                  verify_kept = {.in_plane = &(const planar_rule){step_kept}, .keeps = true},
+                  verify_once = {.once = true}, verify_once_sampled = {.restart = HBM_RESTART_SAMPLE, .once = true};
 
 /* ---- a contact force whose harmonics are multiplied, and the mean of u added: any evaluator's ---- */
 
@@ -143,7 +142,7 @@ static hc_status make(const hbm_plug_in *plug_in, int j, contact_coordinates *x,
   const verify_mistakes *wrong = (const verify_mistakes *)plug_in;
   const bool turned = wrong->turned >> (j < 31 ? j : 31) & 1;
   evaluator_settings settings = *how;
-  settings.slider = verify_sliders[wrong->slider].rule;
+  if (wrong->slider) settings.slider = *wrong->slider;
   if (!turned && !wrong->mean && wrong->mean_error == 0 && !wrong->odd_only) return by->make(x, &settings, self);
   if (turned && x->n_dof == 1 && x->moved.cu[0] != 0 && x->moved.cv[0] != 0) /* T and N are told apart by u and v */
     *x = (contact_coordinates){.n_dof = 2,
@@ -190,7 +189,6 @@ void verify_plug_in(verify_mistakes *wrong, hbm_settings *how)
 {
   const bool of_model = wrong->mean_error != 0 || wrong->turned || wrong->mean || wrong->hysteretic;
   wrong->plug_in = (hbm_plug_in){make, wrong->hysteretic ? hysteretic : NULL};
-  how->restart = verify_sliders[wrong->slider].rule.restart;
-  how->plug_in = of_model || wrong->odd_only || wrong->slider > SLIDER_ON_SAMPLE ? &wrong->plug_in : NULL;
+  how->plug_in = &wrong->plug_in;
   if (of_model) how->skip_linear = false; /* the closed form is the model's as it is */
 }

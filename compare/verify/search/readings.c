@@ -452,6 +452,9 @@ static bool too_few_harmonics(const search *s, const verify_equations *e, int fr
   return false;
 }
 
+/* Is the slider followed by mistake? */
+static bool of_slider(const verify_equations *e) { return VERIFY_MODEL_CHANGES + e->restart >= CHANGE_SLIDER_ZEROED; }
+
 static verify_causes causes_of(const search *s, const verify_equations *e, int frequency)
 {
   verify_causes causes = frequency ? VERIFY_BIT(CAUSE_FREQUENCY) : 0;
@@ -461,8 +464,9 @@ static verify_causes causes_of(const search *s, const verify_equations *e, int f
   else if (!e->keep_mean) causes |= VERIFY_BIT(CAUSE_NO_STATIC);
   /* A mistake in following the slider is one whatever the samples: they are a cause, too, of readings that fewer than
    * SEARCH_MOST_SAMPLES bring closer. */
-  if (e->samples) causes |= verify_sliders[e->restart].causes;
-  if (e->samples && e->restart < SLIDER_ZEROED) causes |= VERIFY_BIT(CAUSE_SAMPLES);
+  const int slider = verify_slider_kind(e)->cause;
+  if (e->samples && slider != CAUSE_NONE) causes |= VERIFY_BIT(slider);
+  if (e->samples && !of_slider(e)) causes |= VERIFY_BIT(CAUSE_SAMPLES);
   return causes | (too_few_harmonics(s, e, frequency) ? VERIFY_BIT(CAUSE_HARMONICS) : 0);
 }
 
@@ -536,7 +540,7 @@ void search_read_distances(search *s, const verify_equations *e, int frequency, 
                            const double *d_solved)
 {
   const double *plain = plain_distances(s, e, frequency);
-  double *const most = e->restart >= SLIDER_ZEROED ? s->most_samples[e->restart] : NULL;
+  double *const most = of_slider(e) ? s->most_samples[e->restart] : NULL;
   const verify_sample *p = &s->points;
   const verify_quantity *asked = &p->quantity[p->first];
   const verify_causes otherwise = e->harmonics < s->out->harmonics ? VERIFY_BIT(CAUSE_HARMONICS) : 0;

@@ -407,7 +407,7 @@ hc_status search_fits(search *s)
   const model *m = s->setup->model;
   double unchanged = NAN;
   hc_status st = HC_OK;
-  for (int c = CHANGE_FORCE; c < VERIFY_CHANGES && st == HC_OK; ++c)
+  for (int c = CHANGE_FORCE; c < VERIFY_MODEL_CHANGES && st == HC_OK; ++c)
     for (int which = 0; which < verify_change_variants(m, c) && verify_changes[c].scan && st == HC_OK; ++which) {
       fit f = {
           .s = s, .unchanged = &unchanged, .equations = search_own(s), .turn = verify_changes[c].scan == SCAN_TURN};

@@ -178,7 +178,7 @@ static hc_status try_changes(search *s, const verify_equations *like, verify_cha
 static hc_status try_every_change(search *s)
 {
   const verify_equations own = search_own(s);
-  return try_changes(s, &own, CHANGE_NONE + 1, VERIFY_CHANGES - 1);
+  return try_changes(s, &own, CHANGE_NONE + 1, VERIFY_MODEL_CHANGES - 1);
 }
 
 /* The other law of two tangents, or one tangent alone: what programs differ in, and before what is dear. All of them,
@@ -296,12 +296,12 @@ static hc_status base_solve(search *s, const verify_equations *e, int frequency,
   return st;
 }
 
-static hc_status try_rate(search *s, const base *b, int samples, int restart)
+static hc_status try_rate(search *s, const base *b, int samples, verify_change slider)
 {
   verify_equations e = b->equations;
   verify_solutions of = {0};
   e.samples = samples;
-  e.restart = restart;
+  e.restart = (int)slider - VERIFY_MODEL_CHANGES;
   if (samples < 2 * e.harmonics + 1) return HC_OK;
   hc_status st = HC_OK;
   if (s->oscillator) {
@@ -319,25 +319,23 @@ static hc_status try_rate(search *s, const base *b, int samples, int restart)
   return st;
 }
 
-static hc_status try_rates(search *s, const base *b, int n, const int *samples, int last_restart)
+static hc_status try_rates(search *s, const base *b, int n, const int *samples, verify_change last)
 {
-  static const verify_slider rules[] = {SLIDER_INTERPOLATED, SLIDER_ON_SAMPLE, SLIDER_RADIAL};
-  const bool planar = model_whole_contacts(s->setup->model) < s->setup->model->n_contacts;
-  const int n_rules = planar ? 3 : last_restart == SLIDER_ON_SAMPLE ? 2 : 1;
+  if (verify_change_applies(s->setup->model, CHANGE_SLIDER_RADIAL, true)) last = CHANGE_SLIDER_RADIAL;
   hc_status st = HC_OK;
   for (int i = 0; i < n && st == HC_OK; ++i)
-    for (int k = n_rules - 1; k >= 0 && st == HC_OK; --k) st = try_rate(s, b, samples[i], rules[k]);
+    for (int k = last; k >= VERIFY_MODEL_CHANGES && st == HC_OK; --k) st = try_rate(s, b, samples[i], k);
   return st;
 }
 
 /* Order number i with each of n numbers of samples. */
-static hc_status try_order_sampled(search *s, int i, int n, const int *samples, int last_restart)
+static hc_status try_order_sampled(search *s, int i, int n, const int *samples, verify_change last)
 {
   const verify_equations e = search_equations(s->orders[i].harmonics, s->orders[i].keep_mean);
   base b;
   if (s->setup->model->n_contacts == 0) return HC_OK;
   hc_status st = base_solve(s, &e, s->frequency, &b);
-  if (st == HC_OK) st = try_rates(s, &b, n, samples, last_restart);
+  if (st == HC_OK) st = try_rates(s, &b, n, samples, last);
   verify_solutions_clear(&b.exact);
   return st;
 }
@@ -390,7 +388,7 @@ static hc_status try_bases(search *s)
   s->expected = s->done + 2 * n * POWERS_OF_TWO + 4 * SAMPLES_TRIED;
   for (int i = 0; i < n && st == HC_OK; ++i) {
     const bool own = s->orders[bases[i]].harmonics == s->own;
-    st = try_order_sampled(s, bases[i], own ? SAMPLES_TRIED : POWERS_OF_TWO, samples_tried, SLIDER_ON_SAMPLE);
+    st = try_order_sampled(s, bases[i], own ? SAMPLES_TRIED : POWERS_OF_TWO, samples_tried, CHANGE_SLIDER_ON_SAMPLE);
   }
   return st;
 }
@@ -405,11 +403,12 @@ static hc_status try_near_likeliest(search *s)
   top.samples = 0;
   hc_status st = base_solve(s, &top, s->frequency, &b);
   if (st == HC_OK && top.harmonics != s->own)
-    st = try_rates(s, &b, SAMPLES_TRIED - POWERS_OF_TWO, samples_tried + POWERS_OF_TWO, SLIDER_ON_SAMPLE);
+    st = try_rates(s, &b, SAMPLES_TRIED - POWERS_OF_TWO, samples_tried + POWERS_OF_TWO, CHANGE_SLIDER_ON_SAMPLE);
   top = s->likely[0];
   const bool same = top.harmonics == b.equations.harmonics && top.keep_mean == b.equations.keep_mean;
   for (int d = -AROUND; d <= AROUND && same && st == HC_OK && !search_explained(s); ++d)
-    if (d && top.samples + d > 2 && top.samples <= FEWEST_SPACED) st = try_rate(s, &b, top.samples + d, top.restart);
+    if (d && top.samples + d > 2 && top.samples <= FEWEST_SPACED)
+      st = try_rate(s, &b, top.samples + d, VERIFY_MODEL_CHANGES + top.restart);
   verify_solutions_clear(&b.exact);
   return st;
 }
@@ -422,7 +421,7 @@ static hc_status try_likeliest_with_orders(search *s)
   const verify_equations top = s->likely[0];
   for (int i = 0; i < s->n_orders && st == HC_OK && !search_explained(s); ++i)
     if (s->orders[i].keep_mean == top.keep_mean && s->orders[i].harmonics != top.harmonics)
-      st = try_order_sampled(s, i, 1, &top.samples, SLIDER_ON_SAMPLE);
+      st = try_order_sampled(s, i, 1, &top.samples, CHANGE_SLIDER_ON_SAMPLE);
   return st;
 }
 
@@ -437,8 +436,8 @@ static hc_status try_small(search *s)
     int n = 0;
     while (n < (int)(sizeof rates / sizeof *rates) && rates[n] <= SMALL * harmonics) ++n;
     if (harmonics > SMALL || harmonics == s->own) continue;
-    st = try_order_sampled(s, i, n, rates, SLIDER_INTERPOLATED);
-    if (st == HC_OK) st = try_order_sampled(s, i, 3, least, SLIDER_INTERPOLATED);
+    st = try_order_sampled(s, i, n, rates, CHANGE_SLIDER_INTERPOLATED);
+    if (st == HC_OK) st = try_order_sampled(s, i, 3, least, CHANGE_SLIDER_INTERPOLATED);
   }
   return st;
 }
@@ -465,9 +464,10 @@ static hc_status try_sliders(search *s)
     const verify_equations e = search_equations(orders[k], true);
     base b;
     st = base_solve(s, &e, 0, &b);
-    for (int i = 0; i <= SLIDER_ONE_PASS_SAMPLE; ++i) fill(SEARCH_DISTANCES, INFINITY, s->most_samples[i]);
-    for (int restart = SLIDER_ZEROED; restart <= SLIDER_ONE_PASS_SAMPLE && st == HC_OK; ++restart)
-      for (size_t i = 0; i < sizeof rates / sizeof *rates && st == HC_OK; ++i) st = try_rate(s, &b, rates[i], restart);
+    for (int i = 0; i < VERIFY_CHANGES - VERIFY_MODEL_CHANGES; ++i)
+      fill(SEARCH_DISTANCES, INFINITY, s->most_samples[i]);
+    for (int slider = CHANGE_SLIDER_ZEROED; slider < VERIFY_CHANGES && st == HC_OK; ++slider)
+      for (size_t i = 0; i < sizeof rates / sizeof *rates && st == HC_OK; ++i) st = try_rate(s, &b, rates[i], slider);
     verify_solutions_clear(&b.exact);
   }
   return st;
@@ -492,7 +492,7 @@ static hc_status try_pairs(search *s)
 {
   const verify_equations without = search_equations(s->own, false);
   if (verify_fits(s->out)) return HC_OK;
-  return try_changes(s, &without, CHANGE_NONE + 1, VERIFY_CHANGES - 1);
+  return try_changes(s, &without, CHANGE_NONE + 1, VERIFY_MODEL_CHANGES - 1);
 }
 
 /* Curves of a structure are dearer, and more may be wrong: the plainest first, until one explains the points. */

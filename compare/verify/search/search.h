@@ -138,10 +138,11 @@ typedef struct search {
   verify_solutions many[2][SEARCH_FREQUENCIES]; /* with the truth's harmonics: without harmonic 0, with */
   int n_orders;
   order orders[SEARCH_MOST_ORDERS];
-  order *current;                                /* the one that is tried now; NULL: none */
-  int n_likely;                                  /* sampled equations that may be it, likeliest first */
-  int frequency;                                 /* the reading of it that these have */
-  search_distances most_samples[VERIFY_SLIDERS]; /* of each mistake about the slider, or INFINITY */
+  order *current; /* the one that is tried now; NULL: none */
+  int n_likely;   /* sampled equations that may be it, likeliest first */
+  int frequency;  /* the reading of it that these have */
+  search_distances
+      most_samples[VERIFY_CHANGES - VERIFY_MODEL_CHANGES]; /* of each mistake about the slider, or INFINITY */
   verify_equations likely[SEARCH_MOST_LIKELY];
   double likely_score[SEARCH_MOST_LIKELY];
   double last;        /* [1] distance of the best reading of what was tried last */

@@ -98,7 +98,7 @@ static hc_status problem_new(const compare_setup *setup, const verify_equations 
 {
   compare_setup own = verify_settings(setup, e);
   model *theirs;
-  *out = (problem){.wrong = {.slider = (verify_slider)e->restart, .odd_only = e->odd_only},
+  *out = (problem){.wrong = {.slider = verify_slider_kind(e)->slider, .odd_only = e->odd_only},
                    .dofs = setup->model->n,
                    .first_dof = setup->model->n_responses - setup->model->n};
   if (!(out->offset = calloc((size_t)setup->model->n_responses, sizeof *out->offset))) return HC_NO_MEMORY;

@@ -22,7 +22,7 @@ typedef struct spoiling {
   double warp;             /* [1] relative, 0 at the first omega and this much at the last: nobody's mistake */
   void (*change)(scene *); /* of the model's numbers */
   bool odd_only, turned;
-  verify_slider slider; /* of a sampled force, if not slider_on_sample */
+  const slider_rule *slider; /* of a sampled force, if not slider_on_sample; NULL: our own */
 } spoiling;
 
 static inline scene curve_scene(const char *path)
@@ -37,7 +37,8 @@ static inline scene curve_spoil(const scene *sc, const spoiling *how)
 {
   static verify_mistakes wrong; /* until the next curve */
   scene own = *sc;
-  wrong = (verify_mistakes){.slider = how->slider_on_sample ? SLIDER_ON_SAMPLE : how->slider,
+  own.hbm.restart = HBM_RESTART_INTERPOLATED;
+  wrong = (verify_mistakes){.slider = how->slider_on_sample ? &verify_on_sample : how->slider,
                             .odd_only = how->odd_only,
                             .turned = how->turned};
   verify_plug_in(&wrong, &own.hbm);
