@@ -9,7 +9,7 @@ enum { HBM_MAX_HARMONICS = 200, HBM_AUTO = 0 /* in the place of a number of harm
 
 typedef enum hbm_force { HBM_FORCE_EXACT, HBM_FORCE_SAMPLED } hbm_force;
 
-/* Where the slider of a sampled force starts as contact is made: at the interpolated instant, or at the sample before. */
+/* Where the slider of a sampled force starts as contact is made: at the interpolated instant, or the sample before. */
 typedef enum hbm_restart { HBM_RESTART_INTERPOLATED, HBM_RESTART_SAMPLE } hbm_restart;
 
 typedef enum hbm_continuation {

@@ -95,14 +95,14 @@ void aft_free(aft *a)
 
 /* ---- the force's Jacobian -------------------------------------------------------------------- */
 
-static int end_of_interval(const aft *a, int j, int m)
+static int aft_end_of_interval(const aft *a, int j, int m)
 {
   const sampled_interval *s = a->intervals + (size_t)j * (size_t)a->n_time;
   return m + 1 < a->n_intervals[j] ? s[m + 1].first : a->n_time;
 }
 
 /* to[] += series, n_harm harmonics, of `weight` over the samples first..end-1 and 0 elsewhere: geometric sums. */
-static void add_interval(const aft *a, int n_harm, double weight, int first, int end, double *to)
+static void aft_add_interval(const aft *a, int n_harm, double weight, int first, int end, double *to)
 {
   const int n = a->n_time;
   int at_first = 0, at_end = 0; /* h times the sample, modulo n */
@@ -118,8 +118,7 @@ static void add_interval(const aft *a, int n_harm, double weight, int first, int
 }
 
 /* kt dw over the samples first..end-1 of a stuck slider, taken from the rows of the first coordinate. */
-static void subtract_stick_interval(aft *a, const moving_contact *c, const slider_origin *o, int first, int end,
-                                    double *jac)
+static void aft_subtract_stick(aft *a, const moving_contact *c, const slider_origin *o, int first, int end, double *jac)
 {
   const int n_coef = series_length(a->n_harm), rows = a->n_dof * n_coef, next = o->i + 1 < a->n_time ? o->i + 1 : 0;
   const double along = a->n_dof > 1 ? 1 : c->cu[0];
@@ -129,7 +128,7 @@ static void subtract_stick_interval(aft *a, const moving_contact *c, const slide
   if (parts == 0) return;
   memset(a->left, 0, (size_t)n_coef * sizeof(double));
   memset(a->right, 0, (size_t)rows * sizeof(double));
-  add_interval(a, a->n_harm, c->law.kt * along, first, end, a->left);
+  aft_add_interval(a, a->n_harm, c->law.kt * along, first, end, a->left);
   if (a->n_dof == 1) period_samples_add(&a->of, o->by_along[0] + o->by_across[0], o->i, a->right);
   for (int k = 0; k < 2 && a->n_dof > 1; ++k) {
     period_samples_add(&a->of, o->by_along[k], k ? next : o->i, of_along);
@@ -156,12 +155,12 @@ static void add_block(aft *a, const double stiffness[4], double *block)
   memset(a->symbol, 0, (size_t)force_jacobian_symbol_length(a->n_harm) * sizeof(double));
   for (int m = 0; m < a->n_intervals[0]; ++m)
     if (stiffness[s[m].state] != 0)
-      add_interval(a, 2 * a->n_harm, stiffness[s[m].state], s[m].first, end_of_interval(a, 0, m), a->symbol);
+      aft_add_interval(a, 2 * a->n_harm, stiffness[s[m].state], s[m].first, aft_end_of_interval(a, 0, m), a->symbol);
   force_jacobian_add(a->n_harm, a->symbol, 2 * series_length(a->n_harm), block);
 }
 
 /* dF/dX, at the last evaluation, which ended with HC_OK. */
-static void jacobian(void *self, double *jac)
+static void aft_jacobian(void *self, double *jac)
 {
   aft *a = self;
   const size_t rows = (size_t)a->n_dof * (size_t)series_length(a->n_harm);
@@ -178,7 +177,7 @@ static void jacobian(void *self, double *jac)
     for (int j = 0; j < a->n_contacts; ++j)
       for (int m = 0; m < a->n_intervals[j]; ++m) {
         const sampled_interval *s = a->intervals + (size_t)j * (size_t)a->n_time + m;
-        const int end = end_of_interval(a, j, m);
+        const int end = aft_end_of_interval(a, j, m);
         const double stiffness = stiffness_in(&a->contacts[j], s->state);
         for (int i = s->first; i < end; ++i) a->k[i] = j ? a->k[i] + stiffness : stiffness;
       }
@@ -189,7 +188,7 @@ static void jacobian(void *self, double *jac)
     const sampled_interval *s = a->intervals + (size_t)j * (size_t)a->n_time;
     for (int m = 0; m < a->n_intervals[j]; ++m)
       if (s[m].state == CONTACT_STICK)
-        subtract_stick_interval(a, &a->contacts[j], &s[m].origin, s[m].first, end_of_interval(a, j, m), jac);
+        aft_subtract_stick(a, &a->contacts[j], &s[m].origin, s[m].first, aft_end_of_interval(a, j, m), jac);
   }
 }
 
@@ -244,7 +243,7 @@ hc_status aft_eval(aft *a, const double *X, double *F, double *jac, contact_repo
     for (int i = 0; i < a->n_time; ++i) a->f[i] = contact_normal_change(&a->contacts->law, a->y[i]);
     period_samples_series(&a->of, a->f, a->n_harm, F + n_coef);
   }
-  if (jac) jacobian(a, jac);
+  if (jac) aft_jacobian(a, jac);
   return HC_OK;
 }
 
@@ -255,7 +254,7 @@ void aft_sliders(const aft *a, double *w)
 
 /* ---- as one of contact_evaluator.h -------------------------------------------------------------------- */
 
-static hc_status make(const contact_coordinates *c, const evaluator_settings *how, void **self)
+static hc_status aft_make(const contact_coordinates *c, const evaluator_settings *how, void **self)
 {
   aft *a;
   const hc_status st = make_aft(how, c->n_dof, 1, &c->moved, &a);
@@ -264,14 +263,17 @@ static hc_status make(const contact_coordinates *c, const evaluator_settings *ho
 }
 
 /* NOLINTNEXTLINE(readability-non-const-parameter): the signature is contact_evaluator.h's */
-static hc_status evaluate(void *self, const double *X, double *F, double *jac, contact_report *report)
+static hc_status aft_evaluate(void *self, const double *X, double *F, double *jac, contact_report *report)
 {
   (void)jac; /* `jacobian` makes it */
   return aft_eval(self, X, F, NULL, report);
 }
 
-static void let_go(void *self) { aft_free(self); }
-static void sliders(const void *self, double *w) { aft_sliders(self, w); }
+static void aft_let_go(void *self) { aft_free(self); }
+static void aft_ask_sliders(const void *self, double *w) { aft_sliders(self, w); }
 
-const contact_evaluator aft_evaluator = {
-    .make = make, .free = let_go, .evaluate = evaluate, .jacobian = jacobian, .sliders = sliders};
+const contact_evaluator aft_evaluator = {.make = aft_make,
+                                         .free = aft_let_go,
+                                         .evaluate = aft_evaluate,
+                                         .jacobian = aft_jacobian,
+                                         .sliders = aft_ask_sliders};

@@ -41,7 +41,7 @@ struct contact_forces {
 
 /* ---- made and freed ---------------------------------------------------------------------------- */
 
-static hc_status combine(workspace *memory, int dim, const double *direction, double divisor, combination *out)
+static hc_status forces_combine(workspace *memory, int dim, const double *direction, double divisor, combination *out)
 {
   out->coordinate = workspace_array(memory, (size_t)dim, sizeof *out->coordinate);
   out->weight = workspace_doubles(memory, (size_t)dim);
@@ -69,7 +69,7 @@ static hc_status make_member(const placed_contact *c, int dim, hbm_force force, 
   memcpy(m->cu, x.moved.cu, sizeof m->cu);
   memcpy(m->cv, x.moved.cv, sizeof m->cv);
   for (int d = 0; d < x.n_dof; ++d) {
-    const hc_status st = combine(memory, dim, x.direction[d], x.divisor[d], &m->of[d]);
+    const hc_status st = forces_combine(memory, dim, x.direction[d], x.divisor[d], &m->of[d]);
     if (st != HC_OK) return st;
   }
   const size_t length = (size_t)m->n_dof * (size_t)series_length(how->n_harm);
@@ -165,7 +165,7 @@ void contact_forces_free(contact_forces *f)
 /* ---- force ------------------------------------------------------------------------------------ */
 
 /* x[c] = sum of the coordinates' coefficients c. */
-static void gather(const contact_forces *f, const combination *of, const double *X, double *x)
+static void forces_gather(const contact_forces *f, const combination *of, const double *X, double *x)
 {
   memset(x, 0, (size_t)f->length * sizeof *x);
   for (int i = 0; i < of->n; ++i) {
@@ -192,7 +192,7 @@ hc_status contact_forces_eval(contact_forces *f, const double *X, double *F, boo
   for (int j = 0; j < f->n_members && st == HC_OK; ++j) {
     member *m = &f->members[j];
     contact_report own;
-    for (int d = 0; d < m->n_dof && !f->itself; ++d) gather(f, &m->of[d], X, f->x + d * f->length);
+    for (int d = 0; d < m->n_dof && !f->itself; ++d) forces_gather(f, &m->of[d], X, f->x + d * f->length);
     st = m->by.evaluate(m->evaluator, f->itself ? X : f->x, f->itself ? F : f->f, derive ? m->jac : NULL, &own);
     m->differentiated = derive && !m->by.jacobian;
     for (int d = 0; d < m->n_dof && st == HC_OK && !f->itself; ++d) scatter(f, &m->of[d], f->f + d * f->length, F);

@@ -19,7 +19,7 @@ int given_motion_planar_dof(const contact *law) { return law->kn > 0 ? 3 : 2; }
 /* Unit vectors: X is in the contact's own directions. */
 static const double unit[GIVEN_MOST_DOF][GIVEN_MOST_DOF] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 
-static void place(const given_motion *m, placed_contact *out)
+static void given_motion_place(const given_motion *m, placed_contact *out)
 {
   for (int j = 0; j < m->n_contacts && !m->pair; ++j) {
     const moving_contact *c = &m->contacts[j];
@@ -44,7 +44,7 @@ hc_status given_motion_force(const given_motion *m, hbm_restart restart, int n_t
   double *X = calloc(2 * size, sizeof *X), *force = X ? X + size : NULL; /* by coefficient, then by coordinate */
   hc_status st = placed && X ? HC_OK : HC_NO_MEMORY;
   if (st == HC_OK) {
-    place(m, placed);
+    given_motion_place(m, placed);
     const hbm_force by = n_time == GIVEN_EXACT ? HBM_FORCE_EXACT : HBM_FORCE_SAMPLED;
     st = contact_forces_new_of(m->n_dof, contacts, placed, by, &how, &f);
   }

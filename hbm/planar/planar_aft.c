@@ -69,7 +69,7 @@ static inline planar_sample planar_aft_sample(const planar_aft *a, int i)
 
 /* ---- made and freed ------------------------------------------------------------------------------ */
 
-static void let_go(void *self)
+static void planar_aft_let_go(void *self)
 {
   planar_aft *a = self;
   if (!a) return;
@@ -78,7 +78,7 @@ static void let_go(void *self)
   free(a);
 }
 
-static hc_status make(const contact_coordinates *c, const evaluator_settings *how, void **self)
+static hc_status planar_aft_make(const contact_coordinates *c, const evaluator_settings *how, void **self)
 {
   const contact *law = &c->moved.law;
   *self = NULL;
@@ -106,7 +106,7 @@ static hc_status make(const contact_coordinates *c, const evaluator_settings *ho
   const hc_status st = period_samples_make(a->n_harm, a->n_time, &a->memory, &a->of);
   if (st == HC_OK) series_grid_table_fill(a->n_harm, a->table);
   if (st == HC_OK) *self = a;
-  else let_go(a);
+  else planar_aft_let_go(a);
   return st;
 }
 
@@ -185,7 +185,7 @@ static bool planar_aft_fixed_point(double A[2][2], const double b[2], double x[2
 }
 
 /* The rest `missed` of a period of derivative A may be that much of the slider's error [length]. */
-static double error_of(const period *p, double missed)
+static double planar_aft_error(const period *p, double missed)
 {
   const double det = (1 - p->A[0][0]) * (1 - p->A[1][1]) - p->A[0][1] * p->A[1][0];
   return missed * (2 + fabs(p->A[0][0]) + fabs(p->A[0][1]) + fabs(p->A[1][0]) + fabs(p->A[1][1])) / fabs(det);
@@ -227,7 +227,7 @@ static hc_status close_orbit(planar_aft *a, bool apart, bool near_orbit, double 
     missed = hypot(step[0], step[1]);
     a->orbit = p.slips || p.separates ? PLANAR_CLOSED : guessed ? PLANAR_GUESSED : PLANAR_DRAGGED;
     if (missed <= enough || (missed <= most && !(missed < 0.5 * before) && stepped))
-      return !near_orbit || (error_of(&p, missed) <= alike && slips_far(a, far)) ? HC_OK : HC_NOT_CLOSED;
+      return !near_orbit || (planar_aft_error(&p, missed) <= alike && slips_far(a, far)) ? HC_OK : HC_NOT_CLOSED;
     const bool guess = guesses && (!stepped || missed < 0.5 * before);
     before = missed;
     double change[2];
@@ -248,7 +248,7 @@ static bool rests_where_nearest(const planar_aft *a) { return !a->slider.in_plan
 
 /* a->rest: of the motion itself, not of its samples, between which an instant where a disc holds the slider would
  * jump. */
-static hc_status find_rest(planar_aft *a, const double *X)
+static hc_status planar_aft_find_rest(planar_aft *a, const double *X)
 {
   const int length = series_length(a->n_harm);
   const planar_motion m = planar_motion_make(&a->law, a->n_harm, X, X + length, a->n_dof == 3 ? X + 2 * length : NULL);
@@ -270,7 +270,7 @@ static void take_rest(planar_aft *a)
 /* ---- the force ---------------------------------------------------------------------------------------- */
 
 /* The state at a sample: separated, stuck or slipping. */
-static int state_of(unsigned char move) { return move == PLANAR_PLACED ? PLANAR_HELD : move; }
+static int planar_aft_state(unsigned char move) { return move == PLANAR_PLACED ? PLANAR_HELD : move; }
 
 static void fill_report(const planar_aft *a, contact_report *out)
 {
@@ -280,7 +280,7 @@ static void fill_report(const planar_aft *a, contact_report *out)
     apart |= a->move[i] == PLANAR_APART;
     touches |= a->move[i] != PLANAR_APART;
     slips |= a->move[i] == PLANAR_SLIPPED;
-    out->transitions += state_of(a->move[i]) != state_of(a->move[i ? i - 1 : a->n_time - 1]);
+    out->transitions += planar_aft_state(a->move[i]) != planar_aft_state(a->move[i ? i - 1 : a->n_time - 1]);
   }
   if (slips) out->regime = CONTACT_SLIPS;
   if (apart) out->regime = touches ? CONTACT_SEPARATES : CONTACT_LINEAR;
@@ -288,7 +288,7 @@ static void fill_report(const planar_aft *a, contact_report *out)
 }
 
 /* NOLINTNEXTLINE(readability-non-const-parameter): the signature is contact_evaluator.h's */
-static hc_status evaluate(void *self, const double *X, double *F, double *jac, contact_report *report)
+static hc_status planar_aft_evaluate(void *self, const double *X, double *F, double *jac, contact_report *report)
 {
   planar_aft *a = self;
   (void)jac; /* `jacobian` makes it */
@@ -313,7 +313,7 @@ static hc_status evaluate(void *self, const double *X, double *F, double *jac, c
   a->rest = (planar_rest){.exists = false};
   if (st != HC_OK || a->orbit != PLANAR_CLOSED) { /* not known from the last motion */
     st = HC_OK;
-    if (!apart && rests_where_nearest(a)) st = find_rest(a, X);
+    if (!apart && rests_where_nearest(a)) st = planar_aft_find_rest(a, X);
     if (st != HC_OK) return st;
     memcpy(w, a->rest.w, sizeof w);
     memcpy(a->start, w, sizeof w);
@@ -329,7 +329,7 @@ static hc_status evaluate(void *self, const double *X, double *F, double *jac, c
   return HC_OK;
 }
 
-static void sliders(const void *self, double *w)
+static void planar_aft_sliders(const void *self, double *w)
 {
   const planar_aft *a = self;
   memcpy(w, a->first, sizeof a->first);
@@ -352,7 +352,7 @@ static void empty_panel(planar_aft *a)
 }
 
 /* whole -= kt dw at the samples whose harmonics add up to `sum`. */
-static void subtract(planar_aft *a, const double *restrict sum)
+static void planar_aft_subtract(planar_aft *a, const double *restrict sum)
 {
   const int length = series_length(a->n_harm), n = columns(a) + 2;
   const double scale = 2 * a->law.kt / a->n_time;
@@ -368,7 +368,7 @@ static void subtract_held(planar_aft *a)
 {
   const size_t bytes = (size_t)series_length(a->n_harm) * sizeof(double);
   if (a->held[0] == 0) return; /* of no sample */
-  subtract(a, a->held);
+  planar_aft_subtract(a, a->held);
   memset(a->held, 0, bytes);
 }
 
@@ -401,7 +401,7 @@ static void differentiate_step(planar_aft *a, int i, planar_move move, const pla
       }
   }
   if (!forces) return;
-  if (move == PLANAR_SLIPPED) subtract(a, a->basis[1]);
+  if (move == PLANAR_SLIPPED) planar_aft_subtract(a, a->basis[1]);
   else if (move != PLANAR_APART) period_samples_add(&a->of, 1, i, a->held);
 }
 
@@ -505,7 +505,7 @@ static void add_contact_stiffness(planar_aft *a, double stiffness, int d, double
   force_jacobian_add(a->n_harm, a->symbol, (int)ld, jac + (ld + 1) * (size_t)d * length);
 }
 
-static void jacobian(void *self, double *jac)
+static void planar_aft_jacobian(void *self, double *jac)
 {
   planar_aft *a = self;
   const size_t n = (size_t)columns(a), rows = 2 * (size_t)series_length(a->n_harm);
@@ -524,5 +524,8 @@ static void jacobian(void *self, double *jac)
   if (a->n_dof == 3) add_contact_stiffness(a, 2 * a->law.kn, 2, jac);
 }
 
-const contact_evaluator planar_aft_evaluator = {
-    .make = make, .free = let_go, .evaluate = evaluate, .jacobian = jacobian, .sliders = sliders};
+const contact_evaluator planar_aft_evaluator = {.make = planar_aft_make,
+                                                .free = planar_aft_let_go,
+                                                .evaluate = planar_aft_evaluate,
+                                                .jacobian = planar_aft_jacobian,
+                                                .sliders = planar_aft_sliders};

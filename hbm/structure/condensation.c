@@ -62,8 +62,8 @@ static double complex Z_at(const condensation *c, condensation_change dynamic, s
 static bool rest_is_diagonal(const condensation *c, int h) { return c->basis.diagonal || (c->basis.modes && h == 0); }
 
 /* What compliance.h wants to know of harmonic h. */
-static double frequency(const condensation *c, int h) { return h * c->omega; }
-static double reach_of(const condensation *c) { return frequency(c, c->n_harm); }
+static double condensation_frequency(const condensation *c, int h) { return h * c->omega; }
+static double condensation_reach(const condensation *c) { return condensation_frequency(c, c->n_harm); }
 static double more_rate(const condensation *c) { return c->more_damping * c->more_mass; }
 
 /* With a rest at least as large its modes pay. */
@@ -236,7 +236,7 @@ static hc_status fill_by_rest(condensation *c, int h)
 }
 
 /* out[dim] = S a. */
-static void multiply(int dim, const double complex *S, const double complex *a, double complex *out)
+static void condensation_multiply(int dim, const double complex *S, const double complex *a, double complex *out)
 {
   for (int d = 0; d < dim; ++d) out[d] = 0;
   for (int e = 0; e < dim; ++e)
@@ -249,13 +249,15 @@ static bool fill_by_compliance(condensation *c, int h)
   const size_t dim = (size_t)c->basis.dim;
   double complex *S = c->S + (size_t)h * dim * dim;
   if (!c->compliance || h == 0) return false;
-  if (compliance_at(c->compliance, frequency(c, h), reach_of(c), more_rate(c), S, c->workspace) != HC_OK) return false;
+  if (compliance_at(c->compliance, condensation_frequency(c, h), condensation_reach(c), more_rate(c), S,
+                    c->workspace) != HC_OK)
+    return false;
   for (size_t l = 0; l < (size_t)c->m->n_loads; ++l) {
     if (c->m->loads[l].harmonic != h) continue;
     for (size_t d = 0; d < dim; ++d)
       c->motion[l * dim + d] =
           load_factor(c, (int)l) * (c->workspace[2 * l * dim + d] - I * c->workspace[(2 * l + 1) * dim + d]);
-    multiply(c->basis.dim, S, c->motion + l * dim, c->load + l * dim);
+    condensation_multiply(c->basis.dim, S, c->motion + l * dim, c->load + l * dim);
   }
   return true;
 }
@@ -335,10 +337,10 @@ condensation_change condensation_by_damping(const condensation *c, int h)
 /* dG and dg of compliance.h. NULL where it cannot tell: Z_yy is then there. */
 static const double complex *change_by_compliance(condensation *c, int h, condensation_change by)
 {
-  const double w = frequency(c, h);
+  const double w = condensation_frequency(c, h);
   const double complex ds = by.beta, dd = by.beta == 0 ? by.alpha / (I * w) : 0, *dG;
   if (!c->by_compliance[h]) return NULL;
-  const hc_status st = compliance_change(c->compliance, w, reach_of(c), more_rate(c), ds, dd, &dG);
+  const hc_status st = compliance_change(c->compliance, w, condensation_reach(c), more_rate(c), ds, dd, &dG);
   if (st == HC_OK) return dG;
   c->by_compliance[h] = fill_by_rest(c, h) != HC_OK;
   return NULL;
@@ -351,9 +353,9 @@ static void apply_by_compliance(const condensation *c, int h, const double compl
   const int dim = c->basis.dim;
   const double complex *S = condensation_stiffness(c, h);
   double complex *force = vector, *motion = vector + dim;
-  multiply(dim, S, a, force);
-  multiply(dim, dG, force, motion);
-  multiply(dim, S, motion, dS_a);
+  condensation_multiply(dim, S, a, force);
+  condensation_multiply(dim, dG, force, motion);
+  condensation_multiply(dim, S, motion, dS_a);
   for (int d = 0; d < dim; ++d) dS_a[d] = -dS_a[d];
 }
 
@@ -426,7 +428,7 @@ void condensation_load_change(condensation *c, int l, condensation_change by, do
     const double complex *dg = dG + dim * dim + 2 * (size_t)l * dim;
     apply_by_compliance(c, h, dG, c->motion + (size_t)l * dim, c->vector, dp);
     for (size_t d = 0; d < dim; ++d) c->workspace[d] = load_factor(c, l) * (dg[d] - I * dg[dim + d]);
-    multiply(c->basis.dim, condensation_stiffness(c, h), c->workspace, c->vector);
+    condensation_multiply(c->basis.dim, condensation_stiffness(c, h), c->workspace, c->vector);
     for (size_t d = 0; d < dim; ++d) dp[d] += c->vector[d];
   } else {
     memset(c->vector, 0, rest * sizeof *c->vector);
@@ -444,7 +446,8 @@ static bool response_by_compliance(condensation *c, int h, int r, double factor,
   double complex *G_r = c->vector, *g_r = c->workspace;
   const double complex *S = c->S + (size_t)h * (size_t)dim * (size_t)dim;
   if (!c->by_compliance[h]) return false;
-  if (compliance_of_response(c->compliance, frequency(c, h), reach_of(c), more_rate(c), r, G_r, g_r) != HC_OK)
+  if (compliance_of_response(c->compliance, condensation_frequency(c, h), condensation_reach(c), more_rate(c), r, G_r,
+                             g_r) != HC_OK)
     return false;
   *rest_of_it = 0;
   for (int e = 0; e < dim; ++e) {

@@ -32,8 +32,8 @@ int verify_change_variants(const model *m, verify_change c)
 
 /* A change being made. */
 struct changing {
-  const model *of; /* the case's */
-  verify_changed how;
+  const model *of;           /* the case's */
+  verify_changed how;        /* its factor: that of the table, where the change has no number */
   int which;                 /* how.which - 1: < 0 all */
   model *own;                /* the other program's */
   verify_mistakes *mistakes; /* in its equations */
@@ -46,7 +46,7 @@ struct changing {
 
 /* ---- vectors and matrices, by columns ---- */
 
-static void scale(size_t n, double factor, double *a)
+static void scale_all(size_t n, double factor, double *a)
 {
   for (size_t i = 0; i < n; ++i) a[i] *= factor;
 }
@@ -65,7 +65,7 @@ static void transpose(int n, double *A)
 }
 
 /* Rows i and k of A exchanged, and its columns. */
-static void exchange(int n, int i, int k, double *A)
+static void exchange_dofs(int n, int i, int k, double *A)
 {
   for (int j = 0; j < n; ++j) swap(&A[i + n * j], &A[k + n * j]);
   for (int j = 0; j < n; ++j) swap(&A[j + n * i], &A[j + n * k]);
@@ -110,7 +110,7 @@ static bool same_model(const model *a, const model *b)
 
 static hc_status scale_matrix(const changing *c, double *A)
 {
-  scale((size_t)c->own->n * (size_t)c->own->n, c->how.factor, A);
+  scale_all((size_t)c->own->n * (size_t)c->own->n, c->how.factor, A);
   return HC_OK;
 }
 
@@ -134,7 +134,7 @@ static hc_status lump_mass(changing *c)
   return HC_OK;
 }
 
-static double trace(int n, const double *A)
+static double trace_of(int n, const double *A)
 {
   double sum = 0;
   for (int i = 0; i < n; ++i) sum += A[(size_t)i * (size_t)(n + 1)];
@@ -158,17 +158,19 @@ static hc_status modal(changing *c)
     if (w > 0) ratio += factor * P[(size_t)k * (size_t)(n + 1)] / (2 * w * n);
   }
   if (st == HC_OK) dense_multiply(n, n, n, m->mass, phi, P);
-  for (int k = 0; k < n && st == HC_OK; ++k) scale((size_t)n, sqrt(2 * ratio * sqrt(fmax(lambda[k], 0))), P + k * n);
+  for (int k = 0; k < n && st == HC_OK; ++k)
+    scale_all((size_t)n, sqrt(2 * ratio * sqrt(fmax(lambda[k], 0))), P + k * n);
   if (st == HC_OK) dense_transpose(n, n, P, room), dense_multiply(n, n, n, P, room, m->damping);
   free(phi);
   return st == HC_NO_MEMORY ? st : st == HC_OK && ratio > 0 ? HC_OK : HC_BAD_INPUT;
 }
 
-/* Damping like another matrix, of the same trace times the factor; hysteretic at omega. HC_BAD_INPUT: it is like that. */
+/* Damping like another matrix, of the same trace times the factor, and hysteretic times omega. HC_BAD_INPUT: it is like
+ * that already. */
 static hc_status damp_like(changing *c, const double *like, double omega)
 {
   model *m = c->own;
-  const double share = trace(m->n, m->damping) / trace(m->n, like);
+  const double share = trace_of(m->n, m->damping) / trace_of(m->n, like);
   if (!(share > 0) || !isfinite(share * omega)) return HC_BAD_INPUT;
   const size_t square = (size_t)m->n * (size_t)m->n;
   double apart = 0, most = 0;
@@ -176,7 +178,7 @@ static hc_status damp_like(changing *c, const double *like, double omega)
     apart = fmax(apart, fabs(m->damping[i] - share * like[i])), most = fmax(most, fabs(m->damping[i]));
   if (!c->mistakes->hysteretic && apart <= 1e-9 * most) return HC_BAD_INPUT;
   memcpy(m->damping, like, square * sizeof *like);
-  scale(square, c->how.factor * share * omega, m->damping);
+  scale_all(square, c->how.factor * share * omega, m->damping);
   return HC_OK;
 }
 
@@ -187,7 +189,7 @@ static hc_status hysteretic(changing *c)
 {
   const model *m = c->own;
   c->mistakes->hysteretic = true;
-  return damp_like(c, m->stiffness, sqrt(trace(m->n, m->stiffness) / trace(m->n, m->mass)));
+  return damp_like(c, m->stiffness, sqrt(trace_of(m->n, m->stiffness) / trace_of(m->n, m->mass)));
 }
 
 /* Degrees of freedom i < k exchanged in the matrices. */
@@ -196,7 +198,7 @@ static hc_status swap_matrices(changing *c)
   model *m = c->own;
   const int i = c->which / m->n, k = c->which % m->n;
   if (c->which < 0 || i >= k) return HC_BAD_INPUT;
-  exchange(m->n, i, k, m->mass), exchange(m->n, i, k, m->damping), exchange(m->n, i, k, m->stiffness);
+  exchange_dofs(m->n, i, k, m->mass), exchange_dofs(m->n, i, k, m->damping), exchange_dofs(m->n, i, k, m->stiffness);
   return HC_OK;
 }
 
@@ -216,7 +218,7 @@ static hc_status swap_dofs(changing *c)
 
 static void scale_load(const changing *c, double factor, model_load *load)
 {
-  scale((size_t)c->own->n, factor, load->cosine), scale((size_t)c->own->n, factor, load->sine);
+  scale_all((size_t)c->own->n, factor, load->cosine), scale_all((size_t)c->own->n, factor, load->sine);
 }
 
 static void scale_force(changing *c, model_load *load)
@@ -229,10 +231,10 @@ static void scale_static_load(changing *c, model_load *load)
   if (load->harmonic == 0) scale_load(c, c->how.factor, load);
 }
 
-static void turn_phase(changing *c, model_load *load) { scale((size_t)c->own->n, -1, load->sine); }
+static void turn_phase(changing *c, model_load *load) { scale_all((size_t)c->own->n, -1, load->sine); }
 
 /* The number of loads of single degrees of freedom: static ones (fixed), or those of all other harmonics. */
-static int count_loads(const model *m, bool fixed)
+static int count_single_loads(const model *m, bool fixed)
 {
   int count = 0;
   for (int l = 0; l < m->n_loads; ++l)
@@ -241,18 +243,15 @@ static int count_loads(const model *m, bool fixed)
   return count;
 }
 
-static void scale_at_dof(const changing *c, double factor, model_load *load)
+static void scale_one_load(changing *c, model_load *load)
 {
   const int n = c->of->n, i = c->which % n;
-  if (c->which < 0 || c->which / n != load->harmonic || count_loads(c->of, load->harmonic == 0) <= 1) return;
-  load->cosine[i] *= factor, load->sine[i] *= factor;
+  if (c->which < 0 || c->which / n != load->harmonic || count_single_loads(c->of, load->harmonic == 0) <= 1) return;
+  load->cosine[i] *= c->how.factor, load->sine[i] *= c->how.factor;
 }
 
-static void scale_one_load(changing *c, model_load *load) { scale_at_dof(c, c->how.factor, load); }
-static void turn_one_load(changing *c, model_load *load) { scale_at_dof(c, -1, load); }
-
 /* All of it to one degree of freedom. */
-static void gather(int n, int to, double *load)
+static void gather_load(int n, int to, double *load)
 {
   double sum = 0;
   for (int i = 0; i < n; ++i) sum += load[i], load[i] = 0;
@@ -262,7 +261,7 @@ static void gather(int n, int to, double *load)
 static void move_load(changing *c, model_load *load)
 {
   if (c->which < 0 || load->harmonic == 0) return;
-  gather(c->own->n, c->which, load->cosine), gather(c->own->n, c->which, load->sine);
+  gather_load(c->own->n, c->which, load->cosine), gather_load(c->own->n, c->which, load->sine);
 }
 
 /* ---- each contact that is meant ---- */
@@ -271,15 +270,12 @@ static void scale_kt(changing *c, model_contact *k) { k->law.kt *= c->how.factor
 static void scale_kn(changing *c, model_contact *k) { k->law.kn *= c->how.factor; }
 static void scale_mu(changing *c, model_contact *k) { k->law.mu *= c->how.factor; }
 static void scale_gap(changing *c, model_contact *k) { k->law.gap *= c->how.factor; }
-static void turn_gap(changing *c, model_contact *k) { (void)c, k->law.gap = -k->law.gap; }
-static void no_friction(changing *c, model_contact *k) { (void)c, k->law.mu = 0; }
-static void no_kt(changing *c, model_contact *k) { (void)c, k->law.kt = 0; }
 
 static void scale_law(changing *c, model_contact *k)
 {
   const double factor = c->how.factor;
   k->law.kt *= factor, k->law.kn *= factor, k->law.load *= factor;
-  scale(CONTACT_POWERS, factor, k->law.power);
+  scale_all(CONTACT_POWERS, factor, k->law.power);
 }
 
 static void scale_epsilon(changing *c, model_contact *k)
@@ -288,15 +284,12 @@ static void scale_epsilon(changing *c, model_contact *k)
   k->law.epsilon *= c->how.factor;
 }
 
-static void scale_powers(changing *c, double factor, model_contact *k)
+static void scale_power(changing *c, model_contact *k)
 {
   for (int i = 0; i < CONTACT_POWERS; ++i)
     if (k->law.power[i] != 0 && (c->which < 0 || c->which == c->whole * CONTACT_POWERS + i))
-      k->law.power[i] *= factor, c->there = true;
+      k->law.power[i] *= c->how.factor, c->there = true;
 }
-
-static void scale_power(changing *c, model_contact *k) { scale_powers(c, c->how.factor, k); }
-static void turn_power(changing *c, model_contact *k) { scale_powers(c, -1, k); }
 
 /* A polynomial with powers one higher. */
 static void raise_powers(changing *c, model_contact *k)
@@ -399,14 +392,10 @@ static void drop_mean(changing *c, model_contact *k) { change_mean(c, k, FRICTIO
 
 /* ---- all contacts ---- */
 
-static hc_status no_contact(changing *c)
-{
-  c->own->n_contacts = 0;
-  return HC_OK;
-}
+static hc_status no_contact(changing *c) { return c->own->n_contacts = 0, HC_OK; }
 
 /* Stuck for good. HC_BAD_INPUT: they have no stiffness. */
-static hc_status stick(changing *c)
+static hc_status stick_contacts(changing *c)
 {
   model *m = c->own;
   for (int j = 0; j < m->n_contacts; ++j) {
@@ -449,7 +438,7 @@ static hc_status swap_contacts(changing *c)
 }
 
 /* d := A^-1 d; A[n][n] becomes its factors. HC_BAD_INPUT: nothing holds the structure. */
-static hc_status solve(int n, double *A, double *d)
+static hc_status solve_static_force(int n, double *A, double *d)
 {
   if (n == 1 && !(*A > 0)) return HC_BAD_INPUT;
   int *pivot = malloc((size_t)n * sizeof *pivot);
@@ -472,7 +461,7 @@ static hc_status displace(model *m, double *force, double mean_factor, bool all_
     const model_contact *c = &m->contacts[j];
     if (all_linear || c->law.gap > 0) add_outer(n, mean_factor * c->law.kn, c->normal, c->normal, K);
   }
-  hc_status st = solve(n, K, force);
+  hc_status st = solve_static_force(n, K, force);
   free(K);
   if (st != HC_OK) return st;
   for (int r = 0; r < m->n_responses; ++r) offset[r] = dot_product(n, m->responses + (size_t)r * (size_t)n, force);
@@ -496,7 +485,7 @@ static void static_force(const model *m, bool preloaded, double factor, double *
     const model_contact *c = &m->contacts[j];
     for (int i = 0; i < m->n && (c->law.gap > 0) == preloaded; ++i) p[i] += c->normal[i] * c->law.kn * c->law.gap;
   }
-  scale((size_t)m->n, factor, p);
+  scale_all((size_t)m->n, factor, p);
 }
 
 static hc_status mean(changing *c)
@@ -510,7 +499,7 @@ static hc_status mean_of_n(changing *c)
 {
   static_force(c->of, true, 1, c->p);
   if (is_zero(c->of->n, c->p)) return HC_BAD_INPUT;
-  scale((size_t)c->of->n, -(c->how.factor - 1), c->p);
+  scale_all((size_t)c->of->n, -(c->how.factor - 1), c->p);
   return mean(c), displace(c->own, c->p, c->how.factor, false, c->offset);
 }
 
@@ -573,6 +562,7 @@ static hc_status make_change(changing *c)
 {
   const verify_change_kind *kind = &verify_changes[c->how.change];
   model *own = c->own;
+  if (!kind->scan) c->how.factor = kind->times;
   const hc_status st = kind->model ? kind->model(c) : HC_OK;
   if (st != HC_OK) return st;
   for (int l = 0; l < own->n_loads && kind->load; ++l) kind->load(c, &own->loads[l]);

@@ -1,5 +1,5 @@
-/* changes.h - the table of the mistakes that verify makes: the cause that each is, its words, what of the case it is made
- * of, in which scenes it may be, and how it changes the equations. Nearly all are another model, which the exact
+/* changes.h - the table of the mistakes that verify makes: the cause that each is, its words, what of the case it is
+ * made of, in which scenes it may be, and how it changes the equations. Nearly all are another model, which the exact
  * evaluator solves: two contacts make one that does not separate, and a preload that acts on the mass is a static
  * displacement and another gap. What no model has is plugged into the equations (mistakes.h). Private to
  * compare/verify/. */
@@ -46,7 +46,7 @@ enum {
 #define VERIFY_CHANGE_LIST(X)                                                                                          \
   X(CHANGE_NONE, NONE, "", NONE, ALL, ANY, .model = NULL)                                                              \
   X(CHANGE_NO_CONTACT, NO_CONTACT, "K alone", NONE, ALL, CONTACT, .model = no_contact)                                 \
-  X(CHANGE_STUCK, STUCK, "K and the stuck contacts' stiffness", NONE, ALL, CONTACT, .model = stick)                    \
+  X(CHANGE_STUCK, STUCK, "K and the stuck contacts' stiffness", NONE, ALL, CONTACT, .model = stick_contacts)           \
   X(CHANGE_FORCE, FORCE, "F0", FACTOR, ALL, ANY, .load = scale_force)                                                  \
   X(CHANGE_MASS, MASS, "M", FACTOR, ALL, ANY, .model = scale_mass)                                                     \
   X(CHANGE_DAMPING, DAMPING, "C", FACTOR, ALL, ANY, .model = scale_damping)                                            \
@@ -68,16 +68,17 @@ enum {
   X(CHANGE_MEAN, MEAN_FACTOR, "harmonic 0 of the contact force", FACTOR, ALL, CONTACT_MEAN, .model = mean)             \
   X(CHANGE_MEAN_OF_N, MEAN_FACTOR, "harmonic 0 of T and N, but not N0,", FACTOR, ALL, PRELOAD_MEAN,                    \
     .model = mean_of_n)                                                                                                \
-  X(CHANGE_GAP_SIGN, GAP_SIGN, "-gap", NONE, CONTACT, CONTACT, .contact = turn_gap)                                    \
+  X(CHANGE_GAP_SIGN, GAP_SIGN, "-gap", NONE, CONTACT, CONTACT, .contact = scale_gap, .times = -1)                      \
   X(CHANGE_ANGLE_COMPLEMENT, ANGLE_COMPLEMENT, "90 degrees - angle", NONE, ALL, ANGLE, .contact = complement)          \
   X(CHANGE_ANGLE_IN_RADIANS, ANGLE_UNIT, "the angle's degrees taken as radians", NONE, ALL, ANGLE,                     \
     .contact = as_radians)                                                                                             \
   X(CHANGE_ANGLE_IN_DEGREES, ANGLE_UNIT, "the angle in radians taken as degrees", NONE, ALL, ANGLE,                    \
     .contact = as_degrees)                                                                                             \
   X(CHANGE_EXCHANGED, EXCHANGED, "kt = kn of the case, kn = kt", NONE, CONTACT, CONTACT, .contact = swap_springs)      \
-  X(CHANGE_NO_FRICTION, NO_FRICTION, "mu = 0", NONE, CONTACT, CONTACT, .contact = no_friction)                         \
-  X(CHANGE_NO_KT, NO_KT, "kt = 0", NONE, CONTACT, CONTACT, .contact = no_kt)                                           \
-  X(CHANGE_COEFFICIENT_SIGN, COEFFICIENT, "coefficients times -1", NONE, POWER, CONTACT, .contact = turn_power)        \
+  X(CHANGE_NO_FRICTION, NO_FRICTION, "mu = 0", NONE, CONTACT, CONTACT, .contact = scale_mu)                            \
+  X(CHANGE_NO_KT, NO_KT, "kt = 0", NONE, CONTACT, CONTACT, .contact = scale_kt)                                        \
+  X(CHANGE_COEFFICIENT_SIGN, COEFFICIENT, "coefficients times -1", NONE, POWER, CONTACT, .contact = scale_power,       \
+    .times = -1)                                                                                                       \
   X(CHANGE_POWER_UP, POWER, "powers one higher", NONE, CONTACT, CONTACT, .contact = raise_powers)                      \
   X(CHANGE_POWER_DOWN, POWER, "powers one lower", NONE, CONTACT, CONTACT, .contact = lower_powers)                     \
   X(CHANGE_FRICTION_SIGN, FRICTION_SIGN, "-T", NONE, ONE_CONTACT, CONTACT, .contact = turn_friction)                   \
@@ -99,7 +100,7 @@ enum {
   X(CHANGE_RESPONSE, RESPONSE, "the motion of", NONE, DOF, STRUCTURE, .model = NULL)                                   \
   X(CHANGE_RELATIVE, RELATIVE, "the motion relative to", NONE, DOF, STRUCTURE, .model = NULL)                          \
   X(CHANGE_ONE_LOAD, ONE_LOAD, "the load", FACTOR, LOAD, ANY, .load = scale_one_load)                                  \
-  X(CHANGE_LOAD_SIGN, ONE_LOAD, "the other sign of the load", NONE, LOAD, ANY, .load = turn_one_load)                  \
+  X(CHANGE_LOAD_SIGN, ONE_LOAD, "the other sign of the load", NONE, LOAD, ANY, .load = scale_one_load, .times = -1)    \
   X(CHANGE_LOAD_DOF, LOAD_DOF, "the force at", NONE, DOF, STRUCTURE, .load = move_load)                                \
   X(CHANGE_STATIC_LOAD, NO_STATIC_LOAD, "static loads", FACTOR, ALL, ANY, .load = scale_static_load)                   \
   X(CHANGE_PHASE_SIGN, PHASE_SIGN, "phases of the loads times -1", NONE, ALL, ANY, .load = turn_phase)                 \
@@ -141,6 +142,7 @@ typedef struct verify_change_kind {
   hc_status (*model)(changing *c);
   void (*contact)(changing *c, model_contact *k);
   void (*load)(changing *c, model_load *load);
+  double times; /* [1] the factor of a change without a number */
   const slider_rule *slider;
 } verify_change_kind;
 extern const verify_change_kind verify_changes[VERIFY_CHANGES];

@@ -111,16 +111,19 @@ static void spoiled_free(void *self)
 }
 
 /* What the evaluator itself is asked, where it answers. */
-static const contact_evaluator *own(const void *self) { return &((const spoiled *)self)->own; }
-static void *inner(const void *self) { return ((const spoiled *)self)->inner; }
-static void ask_sliders(const void *self, double *w) { own(self)->sliders(inner(self), w); }
-static const contact_interval *ask_intervals(const void *self, int *n) { return own(self)->intervals(inner(self), n); }
-static const struct planar_cycle *ask_in_plane(const void *self) { return own(self)->in_plane(inner(self)); }
-static void ask_at_omega(void *self, double omega) { own(self)->at_omega(inner(self), omega); }
-static const double *ask_by_omega(const void *self) { return own(self)->by_omega(inner(self)); }
+static const contact_evaluator *own_of(const void *self) { return &((const spoiled *)self)->own; }
+static void *inner_of(const void *self) { return ((const spoiled *)self)->inner; }
+static void ask_sliders(const void *self, double *w) { own_of(self)->sliders(inner_of(self), w); }
+static const contact_interval *ask_intervals(const void *self, int *n)
+{
+  return own_of(self)->intervals(inner_of(self), n);
+}
+static const struct planar_cycle *ask_in_plane(const void *self) { return own_of(self)->in_plane(inner_of(self)); }
+static void ask_at_omega(void *self, double omega) { own_of(self)->at_omega(inner_of(self), omega); }
+static const double *ask_by_omega(const void *self) { return own_of(self)->by_omega(inner_of(self)); }
 static contact_slopes ask_slopes(const void *self, double th, double omega)
 {
-  return own(self)->slopes(inner(self), th, omega);
+  return own_of(self)->slopes(inner_of(self), th, omega);
 }
 
 /* The factors of contact j in the coordinates *x. */
@@ -136,8 +139,8 @@ static void choose_factors(const verify_mistakes *wrong, bool turned, const cont
   s->spring = wrong->mean == FRICTION_MEAN_OF_U ? law->kt : 0;
 }
 
-static hc_status make(const hbm_plug_in *plug_in, int j, contact_coordinates *x, const placed_contact *c,
-                      const evaluator_settings *how, contact_evaluator *by, void **self)
+static hc_status spoiled_make(const hbm_plug_in *plug_in, int j, contact_coordinates *x, const placed_contact *c,
+                              const evaluator_settings *how, contact_evaluator *by, void **self)
 {
   const verify_mistakes *wrong = (const verify_mistakes *)plug_in;
   const bool turned = wrong->turned >> (j < 31 ? j : 31) & 1;
@@ -178,7 +181,7 @@ static hc_status make(const hbm_plug_in *plug_in, int j, contact_coordinates *x,
 
 /* ---- all of them ---- */
 
-static double complex hysteretic(int h, double omega, double complex *by_omega)
+static double complex hysteretic_damping(int h, double omega, double complex *by_omega)
 {
   (void)omega;
   *by_omega = 0;
@@ -188,7 +191,7 @@ static double complex hysteretic(int h, double omega, double complex *by_omega)
 void verify_plug_in(verify_mistakes *wrong, hbm_settings *how)
 {
   const bool of_model = wrong->mean_error != 0 || wrong->turned || wrong->mean || wrong->hysteretic;
-  wrong->plug_in = (hbm_plug_in){make, wrong->hysteretic ? hysteretic : NULL};
+  wrong->plug_in = (hbm_plug_in){spoiled_make, wrong->hysteretic ? hysteretic_damping : NULL};
   how->plug_in = &wrong->plug_in;
   if (of_model) how->skip_linear = false; /* the closed form is the model's as it is */
 }

@@ -1,6 +1,6 @@
 /* search.h - which of our own equations, and which reading of the columns, the points lie on; private to
- * compare/verify/. Below the first part what the files of the search have from each other: search.c (the stages),
- * readings.c (hypotheses, which cause is named), scales.c (free factors). */
+ * compare/verify/. Below the first part what the files of the search have from each other: search.c (the stages), tries.c
+ * (one set of equations tried), readings.c (distances, which cause is named), scales.c (free factors). */
 #pragma once
 
 #include "compare/verify/truth/report.h"
@@ -78,11 +78,23 @@ double verify_truth_distance(const verify_sample *p);
 /* HC_NO_MEMORY. */
 hc_status verify_sample_of(int n, const verify_judged *responses, verify_sample *out);
 
-/* [1] The largest distance of a response: of each factor of the values (the last: dB) and reading. */
+/* What values may be multiplied by. */
+typedef struct search_factor {
+  double factor;       /* [1] */
+  verify_causes cause; /* bit */
+  bool decibel;        /* in dB where the file says not, or not where it says so */
+} search_factor;
 enum { SEARCH_FACTORS = 9 };
+extern const search_factor search_factors[SEARCH_FACTORS];
+
+/* [1] Of each factor the readings together; the first: as it stands. Of one response; the largest of all. */
 enum { SEARCH_DISTANCES = SEARCH_FACTORS * VERIFY_READINGS };
-typedef double search_distances[SEARCH_DISTANCES]; /* the readings of one factor together; the first: as it stands */
+typedef double search_distances[SEARCH_DISTANCES];
 void search_distances_of(const verify_sample *p, int response, const verify_solutions *of, search_distances out);
+void search_largest_distances(const verify_sample *p, const verify_solutions *of, search_distances out);
+
+/* h->score from its distance, of which those below `floor` are all the same, and its causes. */
+void search_rank(verify_hypothesis *h, double floor);
 
 /* One reading: number `reading` of verify_reading, times `factor`, into *h. Distances below `floor` are
  * all the same. */
@@ -156,7 +168,7 @@ int search_order(const search *s, int i);
 
 /* Factors of the model's numbers that are no fits; the last of a gap alone. */
 enum { SEARCH_USUAL_FACTORS = 5 };
-extern const double search_factors[SEARCH_USUAL_FACTORS];
+extern const double search_usual[SEARCH_USUAL_FACTORS];
 
 double search_omega_factor(int frequency); /* 0: as it stands */
 
@@ -170,11 +182,10 @@ void search_say(search *s);
 verify_equations search_equations(int harmonics, bool keep_mean);
 verify_equations search_own(const search *s);
 
-/* Their solutions at the points' omegas times the factor: along their curve, or by Newton from `near`. HC_BAD_INPUT:
+/* Their solutions at the points' omegas times the factor: by Newton from `near`; NULL: along their curve. HC_BAD_INPUT:
  * there are no such equations. */
-hc_status search_follow(search *s, const verify_equations *e, double omega_factor, verify_solutions *out);
-hc_status search_near(search *s, const verify_equations *e, double omega_factor, const verify_solutions *near,
-                      verify_solutions *out);
+hc_status search_solve(search *s, const verify_equations *e, double omega_factor, const verify_solutions *near,
+                       verify_solutions *out);
 
 /* By the one that pays, and every reading of them among the hypotheses. Of a structure at a glance, with one guess
  * a point, then at few of the points, at all if these are promising, and along the curve if most of those fit. *out is
