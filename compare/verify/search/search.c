@@ -1,19 +1,18 @@
 /* search.c - see search.h. The search is the list of stages at the end of this file, run from the first to the last as
  * long as the patience lasts. Every stage tries equations (tries.c): it solves them, reads the solutions in every way
  * that the columns may be meant, and keeps the best of every set of causes as a hypothesis. Its score is the distance
- * from the points, times 3 a cause (search_rank). A stage is passed over once the best hypothesis leaves next to nothing
- * (search_explained); which cause is then named, readings.c says.
- *
- * Stages learn from those before by three scores:
+ * from the points, times 3 a cause (search_rank). A stage is passed over once the best hypothesis leaves next to
+ * nothing (search_explained); which cause is then named, readings.c says. Stages learn from those before by three
+ * scores more:
  *   order.score       of a number of harmonics, with harmonic 0 or without: how close its exact forces come
  *   likely_score      of a number of samples and a rule for the slider: how close those come, with these harmonics
- *   s->last           of the equations tried last: their best reading
+ *   last              of the equations tried last: their best reading
  *
  * Exact forces come first. Sampled ones start Newton from the exact ones' solutions, at a small part of what the
  * sampled curve would cost; the likeliest are followed along their own curves, which have solutions that no exact one
  * is near to. A number of harmonics counts as a cause where its solutions are farther than the gate from those of many.
- * Of a structure all but the truth comes by Newton from the truth, first at few of the points, and the plainest mistakes
- * go first: its curves are dearer, and more may be wrong. */
+ * Of a structure all but the truth comes by Newton from the truth, first at few of the points, and the plainest
+ * mistakes go first: its curves are dearer, and more may be wrong. */
 #include "compare/verify/search/search.h"
 
 #include <math.h>

@@ -1,6 +1,6 @@
 /* search.h - which of our own equations, and which reading of the columns, the points lie on; private to
- * compare/verify/. Below the first part what the files of the search have from each other: search.c (the stages), tries.c
- * (one set of equations tried), readings.c (distances, which cause is named), scales.c (free factors). */
+ * compare/verify/. Below the first part what the files of the search have from each other: search.c (the stages),
+ * tries.c (one set of equations tried), readings.c (distances, which cause is named), scales.c (free factors). */
 #pragma once
 
 #include "compare/verify/truth/report.h"
