@@ -2,6 +2,8 @@
  * [2 -1 0; -1 2 -1; 0 -1 2] with the eigenvalues 2 - sqrt(2), 2, 2 + sqrt(2); two sliders and a stop. */
 
 #include "compare/verify/equations/changes.h"
+#include "hbm/solver/system.h"
+#include "numerics/random.h"
 #include "tests/check.h"
 #include "tests/compare/verify/curves.h"
 
@@ -134,5 +136,48 @@ static void matrices_are_numbered_otherwise(CHECK_STATE)
   model_free(m);
 }
 
+/* dR/dX and dR/domega of the equations with a mistake plugged in, against central differences, whose error is some step^2
+ * of smooth forces; odd harmonics alone leave no force in the others. */
+static void plugged_equations_have_their_derivatives(CHECK_STATE)
+{
+  enum { H = 3, LENGTH = DOFS * (2 * H + 1) };
+  static const verify_mistakes all[] = {{.odd_only = true},           {.mean_error = 1},          {.turned = 3},
+                                        {.mean = FRICTION_MEAN_OF_U}, {.mean = FRICTION_NO_MEAN}, {.hysteretic = true}};
+  const double omega = 1.3, step = 1e-5, tolerance = 1e-6;
+  model *m = of_case("cases/structures/chain3.yaml");
+  uint64_t seed = 3;
+  for (size_t a = 0; a < sizeof all / sizeof *all; ++a) {
+    verify_mistakes wrong = all[a];
+    hbm_settings how = {.harmonics = H, .keep_mean = true};
+    hbm_system sys;
+    double X[LENGTH], d[LENGTH], Y[LENGTH], R[2][LENGTH], by_omega[LENGTH];
+    static double jac[LENGTH * LENGTH];
+    verify_plug_in(&wrong, &how);
+    assert_int_equal(hbm_system_init(&sys, m, &how, H, 0, NULL), HC_OK);
+    assert_int_equal(sys.n, LENGTH);
+    for (int i = 0; i < LENGTH; ++i) X[i] = 0.4 * random_signed(&seed) / (1 + i / DOFS), d[i] = random_signed(&seed);
+    for (int side = 0; side < 2; ++side) {
+      for (int i = 0; i < LENGTH; ++i) Y[i] = X[i] + (side ? step : -step) * d[i];
+      assert_int_equal(hbm_system_residual(&sys, omega, Y, R[side]), HC_OK);
+    }
+    assert_int_equal(hbm_system_residual(&sys, omega, X, Y), HC_OK);
+    for (int i = 0; i < LENGTH && wrong.odd_only; ++i)
+      if ((i / DOFS + 1) / 2 % 2 == 0) assert_true(sys.F[i] == 0);
+    hbm_system_jacobian(&sys, omega, LENGTH, jac);
+    hbm_system_domega(&sys, omega, X, by_omega);
+    for (int i = 0; i < LENGTH; ++i) {
+      double slope = 0;
+      for (int k = 0; k < LENGTH; ++k) slope += jac[i + LENGTH * k] * d[k];
+      CHECK_NEAR(slope, (R[1][i] - R[0][i]) / (2 * step), tolerance, "mistake %zu, row %d", a, i);
+    }
+    for (int side = 0; side < 2; ++side)
+      assert_int_equal(hbm_system_residual(&sys, omega + (side ? step : -step), X, R[side]), HC_OK);
+    for (int i = 0; i < LENGTH; ++i)
+      CHECK_NEAR(by_omega[i], (R[1][i] - R[0][i]) / (2 * step), tolerance, "mistake %zu, row %d", a, i);
+    hbm_system_clear(&sys);
+  }
+  model_free(m);
+}
+
 CHECK_TESTS("verify.changes", 60, damping_of_one_ratio, damping_of_a_matrix, friction_of_the_other_sign,
-            a_contact_is_turned, matrices_are_numbered_otherwise)
+            a_contact_is_turned, matrices_are_numbered_otherwise, plugged_equations_have_their_derivatives)
