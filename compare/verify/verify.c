@@ -157,18 +157,6 @@ static void add_distance(message *m, double d)
   else message_add(m, "%.1g", d);
 }
 
-static const char *slider_words(int restart)
-{
-  switch (restart) {
-  case HBM_RESTART_SAMPLE: return ", hbm.slider_restart: sample";
-  case HBM_RESTART_ZEROED: return ", w = 0 after a separation";
-  case HBM_RESTART_KEPT: return ", w kept over a separation";
-  case HBM_RESTART_ONE_PASS:
-  case HBM_RESTART_ONE_PASS_SAMPLE: return ", one period from w = 0";
-  default: return "";
-  }
-}
-
 /* "kt of contact 1 times 2", "the force at DOF 3", "M, C and K exchanged in DOFs 1 and 2": DOFs from 1, contacts from 0
  * as elsewhere. */
 static void add_change(message *m, const verify_equations *e)
@@ -190,7 +178,8 @@ static void add_change(message *m, const verify_equations *e)
       message_add(m, " of harmonic %d at DOF %d", (e->which - 1) / e->n, (e->which - 1) % e->n + 1);
       break;
     case PART_PAIR: message_add(m, " DOFs %d and %d", (e->which - 1) / e->n + 1, (e->which - 1) % e->n + 1); break;
-    case PART_ALL: break;
+    case PART_ALL:
+    case PART_SLIDER: break;
     }
   if (verify_changes[e->change].scan == SCAN_FACTOR) message_add(m, " times %.4g", e->factor);
   if (verify_changes[e->change].scan == SCAN_TURN) message_add(m, " by %.4g degrees", e->factor);
@@ -204,7 +193,7 @@ static void add_equations(message *m, const verify_equations *e)
   if (e->odd_only) message_add(m, "odd harmonics alone, ");
   else if (!e->keep_mean) message_add(m, "hbm.static: false, ");
   message_add(m, "H = %d", e->harmonics);
-  if (e->samples) message_add(m, ", N = %d%s", e->samples, slider_words(e->restart));
+  if (e->samples) message_add(m, ", N = %d%s", e->samples, verify_slider_kind(e)->words);
 }
 
 static void add_causes(message *m, verify_causes bits)

@@ -18,7 +18,7 @@ struct aft {
   int n_dof, n_contacts;
   moving_contact *contacts; /* [n_contacts] */
   int n_harm, n_time;
-  hbm_restart restart;
+  slider_rule slider;
   double *x, *f, *k;        /* [n_time]     displacement [length], force, its stiffness along the orbit */
   double *y;                /* [n_time]     of two coordinates the second */
   period_samples of;        /* its sample:  force of one contact */
@@ -33,9 +33,10 @@ struct aft {
 };
 
 /* n_dof = 1: all contacts are moved by one coordinate; 2: there is one, and the coordinates are its u and v. */
-static hc_status make_aft(int n_harm, int n_time, hbm_restart restart, int n_dof, int n_contacts,
-                          const moving_contact *contacts, aft **out)
+static hc_status make_aft(const evaluator_settings *how, int n_dof, int n_contacts, const moving_contact *contacts,
+                          aft **out)
 {
+  const int n_harm = how->n_harm, n_time = how->n_time;
   *out = NULL;
   if (n_harm < 1 || n_harm > HBM_MAX_HARMONICS || n_time < 2 * n_harm + 1) return HC_BAD_INPUT;
   if (n_dof < 1 || n_dof > 2 || n_contacts < 0 || (n_dof == 2 && n_contacts != 1)) return HC_BAD_INPUT;
@@ -43,7 +44,7 @@ static hc_status make_aft(int n_harm, int n_time, hbm_restart restart, int n_dof
   if (!a) return HC_NO_MEMORY;
   a->n_harm = n_harm;
   a->n_time = n_time;
-  a->restart = restart;
+  a->slider = how->slider;
   a->n_dof = n_dof;
   a->n_contacts = n_contacts;
   a->contacts = workspace_array(&a->memory, (size_t)n_contacts + 1, sizeof *a->contacts);
@@ -75,10 +76,11 @@ static hc_status make_aft(int n_harm, int n_time, hbm_restart restart, int n_dof
 
 hc_status aft_new_of_model(const model *m, hbm_restart restart, int n_harm, int n_time, aft **out)
 {
+  const evaluator_settings how = {.n_harm = n_harm, .n_time = n_time, .slider = {.restart = restart}};
   moving_contact *contacts;
   *out = NULL;
   hc_status st = moving_contacts_of_model(m, &contacts);
-  if (st == HC_OK) st = make_aft(n_harm, n_time, restart, 1, m->n_contacts, contacts, out);
+  if (st == HC_OK) st = make_aft(&how, 1, m->n_contacts, contacts, out);
   free(contacts);
   return st;
 }
@@ -93,14 +95,14 @@ void aft_free(aft *a)
 
 /* ---- the force's Jacobian -------------------------------------------------------------------- */
 
-static int end_of_interval(const aft *a, int j, int m)
+static int aft_end_of_interval(const aft *a, int j, int m)
 {
   const sampled_interval *s = a->intervals + (size_t)j * (size_t)a->n_time;
   return m + 1 < a->n_intervals[j] ? s[m + 1].first : a->n_time;
 }
 
 /* to[] += series, n_harm harmonics, of `weight` over the samples first..end-1 and 0 elsewhere: geometric sums. */
-static void add_interval(const aft *a, int n_harm, double weight, int first, int end, double *to)
+static void aft_add_interval(const aft *a, int n_harm, double weight, int first, int end, double *to)
 {
   const int n = a->n_time;
   int at_first = 0, at_end = 0; /* h times the sample, modulo n */
@@ -116,8 +118,7 @@ static void add_interval(const aft *a, int n_harm, double weight, int first, int
 }
 
 /* kt dw over the samples first..end-1 of a stuck slider, taken from the rows of the first coordinate. */
-static void subtract_stick_interval(aft *a, const moving_contact *c, const slider_origin *o, int first, int end,
-                                    double *jac)
+static void aft_subtract_stick(aft *a, const moving_contact *c, const slider_origin *o, int first, int end, double *jac)
 {
   const int n_coef = series_length(a->n_harm), rows = a->n_dof * n_coef, next = o->i + 1 < a->n_time ? o->i + 1 : 0;
   const double along = a->n_dof > 1 ? 1 : c->cu[0];
@@ -127,7 +128,7 @@ static void subtract_stick_interval(aft *a, const moving_contact *c, const slide
   if (parts == 0) return;
   memset(a->left, 0, (size_t)n_coef * sizeof(double));
   memset(a->right, 0, (size_t)rows * sizeof(double));
-  add_interval(a, a->n_harm, c->law.kt * along, first, end, a->left);
+  aft_add_interval(a, a->n_harm, c->law.kt * along, first, end, a->left);
   if (a->n_dof == 1) period_samples_add(&a->of, o->by_along[0] + o->by_across[0], o->i, a->right);
   for (int k = 0; k < 2 && a->n_dof > 1; ++k) {
     period_samples_add(&a->of, o->by_along[k], k ? next : o->i, of_along);
@@ -154,12 +155,12 @@ static void add_block(aft *a, const double stiffness[4], double *block)
   memset(a->symbol, 0, (size_t)force_jacobian_symbol_length(a->n_harm) * sizeof(double));
   for (int m = 0; m < a->n_intervals[0]; ++m)
     if (stiffness[s[m].state] != 0)
-      add_interval(a, 2 * a->n_harm, stiffness[s[m].state], s[m].first, end_of_interval(a, 0, m), a->symbol);
+      aft_add_interval(a, 2 * a->n_harm, stiffness[s[m].state], s[m].first, aft_end_of_interval(a, 0, m), a->symbol);
   force_jacobian_add(a->n_harm, a->symbol, 2 * series_length(a->n_harm), block);
 }
 
 /* dF/dX, at the last evaluation, which ended with HC_OK. */
-static void jacobian(void *self, double *jac)
+static void aft_jacobian(void *self, double *jac)
 {
   aft *a = self;
   const size_t rows = (size_t)a->n_dof * (size_t)series_length(a->n_harm);
@@ -176,7 +177,7 @@ static void jacobian(void *self, double *jac)
     for (int j = 0; j < a->n_contacts; ++j)
       for (int m = 0; m < a->n_intervals[j]; ++m) {
         const sampled_interval *s = a->intervals + (size_t)j * (size_t)a->n_time + m;
-        const int end = end_of_interval(a, j, m);
+        const int end = aft_end_of_interval(a, j, m);
         const double stiffness = stiffness_in(&a->contacts[j], s->state);
         for (int i = s->first; i < end; ++i) a->k[i] = j ? a->k[i] + stiffness : stiffness;
       }
@@ -187,7 +188,7 @@ static void jacobian(void *self, double *jac)
     const sampled_interval *s = a->intervals + (size_t)j * (size_t)a->n_time;
     for (int m = 0; m < a->n_intervals[j]; ++m)
       if (s[m].state == CONTACT_STICK)
-        subtract_stick_interval(a, &a->contacts[j], &s[m].origin, s[m].first, end_of_interval(a, j, m), jac);
+        aft_subtract_stick(a, &a->contacts[j], &s[m].origin, s[m].first, aft_end_of_interval(a, j, m), jac);
   }
 }
 
@@ -227,7 +228,7 @@ hc_status aft_eval(aft *a, const double *X, double *F, double *jac, contact_repo
     slider_motion motion = {a->x, a->x, c->cu[0], c->cv[0], c->cu[0], c->cv[0]};
     if (a->n_dof > 1)
       motion = (slider_motion){a->x, a->y, 1, 1, 1, 0}; /* the force on u, where v is another coordinate */
-    slider_report found = slider_follow(&c->law, a->restart, a->n_time, &motion, f, again, s, a->settling);
+    slider_report found = slider_follow(&c->law, &a->slider, a->n_time, &motion, f, again, s, a->settling);
     a->n_intervals[j] = found.n_intervals;
     for (int i = 0; i < a->n_time && j > 0; ++i) a->f[i] += a->of.sample[i];
     contact_regime regime = regime_of(found.n_intervals, s);
@@ -242,7 +243,7 @@ hc_status aft_eval(aft *a, const double *X, double *F, double *jac, contact_repo
     for (int i = 0; i < a->n_time; ++i) a->f[i] = contact_normal_change(&a->contacts->law, a->y[i]);
     period_samples_series(&a->of, a->f, a->n_harm, F + n_coef);
   }
-  if (jac) jacobian(a, jac);
+  if (jac) aft_jacobian(a, jac);
   return HC_OK;
 }
 
@@ -253,23 +254,26 @@ void aft_sliders(const aft *a, double *w)
 
 /* ---- as one of contact_evaluator.h -------------------------------------------------------------------- */
 
-static hc_status make(const contact_coordinates *c, const evaluator_settings *how, void **self)
+static hc_status aft_make(const contact_coordinates *c, const evaluator_settings *how, void **self)
 {
   aft *a;
-  const hc_status st = make_aft(how->n_harm, how->n_time, how->restart, c->n_dof, 1, &c->moved, &a);
+  const hc_status st = make_aft(how, c->n_dof, 1, &c->moved, &a);
   *self = a;
   return st;
 }
 
 /* NOLINTNEXTLINE(readability-non-const-parameter): the signature is contact_evaluator.h's */
-static hc_status evaluate(void *self, const double *X, double *F, double *jac, contact_report *report)
+static hc_status aft_evaluate(void *self, const double *X, double *F, double *jac, contact_report *report)
 {
   (void)jac; /* `jacobian` makes it */
   return aft_eval(self, X, F, NULL, report);
 }
 
-static void let_go(void *self) { aft_free(self); }
-static void sliders(const void *self, double *w) { aft_sliders(self, w); }
+static void aft_let_go(void *self) { aft_free(self); }
+static void aft_ask_sliders(const void *self, double *w) { aft_sliders(self, w); }
 
-const contact_evaluator aft_evaluator = {
-    .make = make, .free = let_go, .evaluate = evaluate, .jacobian = jacobian, .sliders = sliders};
+const contact_evaluator aft_evaluator = {.make = aft_make,
+                                         .free = aft_let_go,
+                                         .evaluate = aft_evaluate,
+                                         .jacobian = aft_jacobian,
+                                         .sliders = aft_ask_sliders};

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "hbm/contact/contact_report.h"
+#include "hbm/contact/slider.h"
 #include "hbm/contact/transitions.h"
 #include "hbm/hbm_settings.h"
 #include "model/contact_period.h"
@@ -31,8 +32,8 @@ typedef struct placed_contact {
 
 typedef struct evaluator_settings {
   int n_harm, n_time; /* n_time: of sampled forces */
-  hbm_restart restart;
-  hbm_mistakes mistakes; /* those about friction are made by contact_forces.c */
+  slider_rule slider; /* of sampled forces */
+  const struct hbm_plug_in *plug_in;
 } evaluator_settings;
 
 /* A smooth law's derivatives at an instant of the last evaluation's motion, by u', v [force time/length, force/length];
@@ -65,6 +66,17 @@ typedef struct contact_evaluator {
   void (*at_omega)(void *self, double omega);
   const double *(*by_omega)(const void *self);
 } contact_evaluator;
+
+/* Parts of the equations that somebody else puts in the place of ours; it must live as long as the solver. */
+typedef struct hbm_plug_in {
+  /* Makes *self for the model's contact j, in the place of by->make: its coordinates *x and its evaluator *by, ours at
+   * first, may be changed. */
+  hc_status (*make)(const struct hbm_plug_in *plug_in, int j, contact_coordinates *x, const placed_contact *c,
+                    const evaluator_settings *how, contact_evaluator *by, void **self);
+  /* What C is multiplied by in the dynamic stiffness of harmonic h, and the derivative of that by omega, instead of
+   * i h omega and i h. NULL: nothing instead. */
+  double _Complex (*damping)(int h, double omega, double _Complex *by_omega);
+} hbm_plug_in;
 
 /* A smooth law's two, without aliasing and sampled; and what it does along u, v [2 n_harm + 1], as contact_measures_of
  * (u_2 is not looked at), epsilon being of rates by angle. Each law has a file. */

@@ -17,7 +17,7 @@ enum { BLOCK = 16 }; /* samples looked at before asking whether one of them ends
 /* One contact: its law and motion in one place, what the loops need. */
 typedef struct followed {
   const contact *law;
-  hbm_restart restart;
+  const slider_rule *rule;
   slider_motion m;
   double kt, kn, mu, gap; /* N = kn (v + gap) */
   double shift;           /* N - N0 = kn (v + shift) while in contact */
@@ -107,17 +107,16 @@ WIDE_VECTORS static int follow_slip(const followed *of, double sign, int n, doub
 
 /* On entering contact at sample i after a separated one. Interpolated: w = u on the straight line between the samples
  * where v + gap = 0, else u of the last separated sample. Where u and v are one motion, that is -gap c/s, whatever the
- * samples. By mistake it is 0, or where it was before the separation. */
+ * samples. */
 static void restart_slider(const followed *k, int n, int i, slider *t)
 {
   const slider_motion *m = &k->m;
   const int before = i ? i - 1 : n - 1;
-  const bool interpolated =
-      k->restart == HBM_RESTART_INTERPOLATED || k->restart == HBM_RESTART_RADIAL || k->restart == HBM_RESTART_ONE_PASS;
-  if (k->restart == HBM_RESTART_KEPT) return;
+  const bool interpolated = k->rule->restart == HBM_RESTART_INTERPOLATED;
+  if (k->rule->keeps) return;
   t->origin = (slider_origin){.i = before};
-  if (k->restart == HBM_RESTART_ZEROED) {
-    t->w = 0;
+  if (k->rule->touch) {
+    k->rule->touch(&t->w, &t->origin);
     return;
   }
   if (interpolated && m->along == m->across) {
@@ -144,7 +143,7 @@ static int follow_interval(const followed *k, int n, double *f, int i, slider *t
   if (t->state == CONTACT_SEPARATED && contact_normal(k->law, v) > 0) restart_slider(k, n, i, t);
   t->state = contact_step(k->law, u, v, &t->w, &traction);
   f[i] = traction * m->of_t + contact_normal_change(k->law, v) * m->of_n;
-  const bool keep = k->restart == HBM_RESTART_KEPT && t->state == CONTACT_SEPARATED;
+  const bool keep = k->rule->keeps && t->state == CONTACT_SEPARATED;
   if (keep) t->w = kept;
   *out = (sampled_interval){i, t->state, t->w, t->origin};
   if (t->state == CONTACT_STICK) return follow_stick(k, t->w, n, f, i + 1);
@@ -171,8 +170,7 @@ static int settle_again(const followed *k, int n, double *f, double *again, slid
     /* Do two sliders in these intervals, at a sample of both, have the same to come? Their origins may differ, but each
      * interval that sticks begins with a new one. */
     const sampled_interval *a = &out[count - 1];
-    const bool remembers =
-        a->state == CONTACT_STICK || (a->state == CONTACT_SEPARATED && k->restart == HBM_RESTART_KEPT);
+    const bool remembers = a->state == CONTACT_STICK || (a->state == CONTACT_SEPARATED && k->rule->keeps);
     met = a->state == first[m].state && (!remembers || a->w == first[m].w);
   }
   memcpy(f, again, (size_t)i * sizeof *f);
@@ -183,10 +181,10 @@ static int settle_again(const followed *k, int n, double *f, double *again, slid
   return count + rest;
 }
 
-slider_report slider_follow(const contact *law, hbm_restart restart, int n, const slider_motion *m, double *f,
+slider_report slider_follow(const contact *law, const slider_rule *rule, int n, const slider_motion *m, double *f,
                             double *again, sampled_interval *intervals, sampled_interval *settling)
 {
-  followed k = {law, restart, *m, law->kt, law->kn, law->mu, law->gap, law->gap, 0};
+  followed k = {law, rule, *m, law->kt, law->kn, law->mu, law->gap, law->gap, 0};
   if (law->gap > 0) k.shift = 0;
   k.apart = 0 - contact_preload(law) * k.m.of_n;
   if (law->load > 0) k.kn = 1, k.gap = law->load, k.m.s = k.m.of_n = 0; /* N = load, whatever the motion */
@@ -197,7 +195,7 @@ slider_report slider_follow(const contact *law, hbm_restart restart, int n, cons
   for (int i = 0; i < n;) i = follow_interval(&k, n, f, i, &t, &settling[n_first++]);
   contact_state before = t.state;
   found.settled = t.w;
-  if (restart == HBM_RESTART_ONE_PASS || restart == HBM_RESTART_ONE_PASS_SAMPLE) {
+  if (rule->once) {
     memcpy(intervals, settling, (size_t)n_first * sizeof *intervals);
     found.n_intervals = n_first;
     found.transitions = n_first - 1;

@@ -33,9 +33,20 @@ typedef struct slider_report {
   double w, settled; /* [length] slider at the end of the period and of the one before: to compare */
 } slider_report;
 
+/* How a slider is followed from sample to sample. By `restart` alone, unless somebody plugs in another rule
+ * (hbm_plug_in); then one that is always held has no place of its own in planar_aft.h, either, and is marched. */
+typedef struct slider_rule {
+  hbm_restart restart;
+  /* As contact is made, of one tangent: *w is where the slider starts, *origin what that depends on. NULL: by
+   * `restart`. */
+  void (*touch)(double *w, slider_origin *origin);
+  const struct planar_rule *in_plane; /* a step with two tangents (planar_slider.h); NULL: by `restart` */
+  bool keeps;                         /* w stays as it is over a separation; else w = u while it lasts */
+  bool once;                          /* the force is that of one period from w = 0, whether it closes or not */
+} slider_rule;
+
 /* f[n] [force] at each sample of the periodic motion m; intervals[n]: room, the first of them filled; again[n],
  * settling[n]: room, overwritten. Exactly the second of two periods that begin with w = 0, but the second is followed
- * only until it is where the first was. With one of the ONE_PASS restarts, the first. Cannot fail, allocates
- * nothing. */
-slider_report slider_follow(const contact *law, hbm_restart restart, int n, const slider_motion *m, double *f,
+ * only until it is where the first was; by a rule that follows it once, the first. Cannot fail, allocates nothing. */
+slider_report slider_follow(const contact *law, const slider_rule *rule, int n, const slider_motion *m, double *f,
                             double *again, sampled_interval *intervals, sampled_interval *settling);

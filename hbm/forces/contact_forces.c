@@ -18,13 +18,9 @@ typedef struct member {
   int n_dof;
   combination of[EVALUATOR_MOST_DOF]; /* [n_dof] */
   double cu[SERIES_MAX_DIM], cv[SERIES_MAX_DIM];
-  const contact_evaluator *by;
+  contact_evaluator by;
   void *evaluator;
-  int n_tangents;         /* number of leading coordinates on which only friction acts */
-  double kt, sign;        /* [force/length] tangential stiffness by such a coordinate; sign of the friction force, -1 as
-                             a mistake */
-  hbm_friction_mean mean; /* mistake about the mean friction force, as `sign` */
-  double *jac;            /* [n_dof (2H+1)]^2 */
+  double *jac; /* [n_dof (2H+1)]^2 */
   bool differentiated;
   contact_regime regime; /* of the last evaluation */
 } member;
@@ -45,7 +41,7 @@ struct contact_forces {
 
 /* ---- made and freed ---------------------------------------------------------------------------- */
 
-static hc_status combine(workspace *memory, int dim, const double *direction, double divisor, combination *out)
+static hc_status forces_combine(workspace *memory, int dim, const double *direction, double divisor, combination *out)
 {
   out->coordinate = workspace_array(memory, (size_t)dim, sizeof *out->coordinate);
   out->weight = workspace_doubles(memory, (size_t)dim);
@@ -64,29 +60,21 @@ static hc_status make_member(const placed_contact *c, int dim, hbm_force force, 
   const contact_kind *kind = contact_kind_of(c);
   contact_coordinates x;
   kind->coordinates(c, dim, &x);
-  m->sign = how->mistakes.turned >> (m->first < 31 ? m->first : 31) & 1 ? -1 : 1;
-  if (m->sign < 0 && x.n_dof == 1 && x.moved.cu[0] != 0 && x.moved.cv[0] != 0) /* the sign concerns T alone, which needs
-                                                                                  a coordinate of its own */
-    x = (contact_coordinates){.n_dof = 2,
-                              .direction = {c->tangent, c->normal},
-                              .divisor = {1, 1},
-                              .moved = {.law = c->law, .cu = {1}, .cv = {0, 1}}};
+  m->by = force == HBM_FORCE_SAMPLED ? *kind->sampled : *kind->exact;
   m->contacts = kind->contacts;
+  const hc_status made = how->plug_in ? how->plug_in->make(how->plug_in, m->first, &x, c, how, &m->by, &m->evaluator)
+                                      : m->by.make(&x, how, &m->evaluator);
+  if (made != HC_OK) return made;
   m->n_dof = x.n_dof;
-  if (m->n_dof > 1) m->n_tangents = c->planar ? 2 : 1;
-  else m->n_tangents = x.moved.cv[0] == 0 && contact_has_friction(&c->law);
-  m->kt = c->law.kt * (m->n_dof == 1 ? x.moved.cu[0] * x.moved.cu[0] : 1);
-  m->mean = how->mistakes.mean;
-  m->by = force == HBM_FORCE_SAMPLED ? kind->sampled : kind->exact;
   memcpy(m->cu, x.moved.cu, sizeof m->cu);
   memcpy(m->cv, x.moved.cv, sizeof m->cv);
   for (int d = 0; d < x.n_dof; ++d) {
-    const hc_status st = combine(memory, dim, x.direction[d], x.divisor[d], &m->of[d]);
+    const hc_status st = forces_combine(memory, dim, x.direction[d], x.divisor[d], &m->of[d]);
     if (st != HC_OK) return st;
   }
   const size_t length = (size_t)m->n_dof * (size_t)series_length(how->n_harm);
   m->jac = workspace_doubles(memory, length * length);
-  return m->jac ? m->by->make(&x, how, &m->evaluator) : HC_NO_MEMORY;
+  return m->jac ? HC_OK : HC_NO_MEMORY;
 }
 
 /* True if the Jacobian is faster as a matrix product than scattered member by member, which takes some ten times as
@@ -169,7 +157,7 @@ hc_status contact_forces_new(const model *m, const condensation *c, hbm_force fo
 void contact_forces_free(contact_forces *f)
 {
   if (!f) return;
-  for (int j = 0; j < f->n_members; ++j) f->members[j].by->free(f->members[j].evaluator);
+  for (int j = 0; j < f->n_members; ++j) f->members[j].by.free(f->members[j].evaluator);
   workspace_free(&f->memory);
   free(f);
 }
@@ -177,7 +165,7 @@ void contact_forces_free(contact_forces *f)
 /* ---- force ------------------------------------------------------------------------------------ */
 
 /* x[c] = sum of the coordinates' coefficients c. */
-static void gather(const contact_forces *f, const combination *of, const double *X, double *x)
+static void forces_gather(const contact_forces *f, const combination *of, const double *X, double *x)
 {
   memset(x, 0, (size_t)f->length * sizeof *x);
   for (int i = 0; i < of->n; ++i) {
@@ -195,22 +183,6 @@ static void scatter(const contact_forces *f, const combination *of, const double
   }
 }
 
-/* Applies the deliberate mistakes to the friction force F of the motion x; with F = NULL to the Jacobian. */
-static void spoil_friction(member *m, int length, const double *x, double *F)
-{
-  const size_t rows = (size_t)m->n_dof * (size_t)length;
-  for (size_t d = 0; d < (size_t)m->n_tangents && (m->sign < 0 || m->mean != HBM_FRICTION_MEAN); ++d) {
-    const size_t first = d * (size_t)length;
-    const double kt = m->mean == HBM_FRICTION_MEAN_OF_U ? m->kt : 0;
-    if (F && m->mean != HBM_FRICTION_MEAN) F[first] = kt * x[first];
-    for (size_t q = 0; q < rows && !F && m->mean != HBM_FRICTION_MEAN; ++q)
-      m->jac[q * rows + first] = q == first ? kt : 0;
-    for (size_t p = first; p < first + (size_t)length && F; ++p) F[p] *= m->sign;
-    for (size_t q = 0; q < rows && !F; ++q)
-      for (size_t p = first; p < first + (size_t)length; ++p) m->jac[q * rows + p] *= m->sign;
-  }
-}
-
 hc_status contact_forces_eval(contact_forces *f, const double *X, double *F, bool derive, contact_report *report)
 {
   hc_status st = HC_OK;
@@ -220,11 +192,9 @@ hc_status contact_forces_eval(contact_forces *f, const double *X, double *F, boo
   for (int j = 0; j < f->n_members && st == HC_OK; ++j) {
     member *m = &f->members[j];
     contact_report own;
-    for (int d = 0; d < m->n_dof && !f->itself; ++d) gather(f, &m->of[d], X, f->x + d * f->length);
-    st = m->by->evaluate(m->evaluator, f->itself ? X : f->x, f->itself ? F : f->f, derive ? m->jac : NULL, &own);
-    m->differentiated = derive && !m->by->jacobian;
-    if (st == HC_OK) spoil_friction(m, f->length, f->itself ? X : f->x, f->itself ? F : f->f);
-    if (st == HC_OK && m->differentiated) spoil_friction(m, f->length, NULL, NULL);
+    for (int d = 0; d < m->n_dof && !f->itself; ++d) forces_gather(f, &m->of[d], X, f->x + d * f->length);
+    st = m->by.evaluate(m->evaluator, f->itself ? X : f->x, f->itself ? F : f->f, derive ? m->jac : NULL, &own);
+    m->differentiated = derive && !m->by.jacobian;
     for (int d = 0; d < m->n_dof && st == HC_OK && !f->itself; ++d) scatter(f, &m->of[d], f->f + d * f->length, F);
     if (st != HC_OK) continue;
     m->regime = own.regime;
@@ -298,7 +268,7 @@ const double *contact_forces_jacobian(contact_forces *f)
   if (f->assembled) return f->jac;
   for (int j = 0; j < f->n_members; ++j) {
     member *m = &f->members[j];
-    if (!m->differentiated) m->by->jacobian(m->evaluator, m->jac), spoil_friction(m, f->length, NULL, NULL);
+    if (!m->differentiated) m->by.jacobian(m->evaluator, m->jac);
     m->differentiated = true;
   }
   if (f->itself) return f->members->jac;
@@ -312,7 +282,7 @@ const double *contact_forces_jacobian(contact_forces *f)
 
 void contact_forces_sliders(const contact_forces *f, double *w)
 {
-  for (int j = 0; j < f->n_members; ++j) f->members[j].by->sliders(f->members[j].evaluator, w + f->members[j].first);
+  for (int j = 0; j < f->n_members; ++j) f->members[j].by.sliders(f->members[j].evaluator, w + f->members[j].first);
 }
 
 static const member *member_of(const contact_forces *f, int j) { return &f->members[f->member_of[j]]; }
@@ -321,21 +291,21 @@ const contact_interval *contact_forces_intervals(const contact_forces *f, int j,
 {
   const member *m = member_of(f, j);
   *n = 0;
-  return m->first == j ? m->by->intervals(m->evaluator, n) : NULL;
+  return m->first == j ? m->by.intervals(m->evaluator, n) : NULL;
 }
 
 const planar_cycle *contact_forces_planar(const contact_forces *f, int j)
 {
   const member *m = member_of(f, j);
-  return m->first == j && m->by->in_plane ? m->by->in_plane(m->evaluator) : NULL;
+  return m->first == j && m->by.in_plane ? m->by.in_plane(m->evaluator) : NULL;
 }
 
-bool contact_forces_bends(const contact_forces *f, int j) { return member_of(f, j)->by->slopes != NULL; }
+bool contact_forces_bends(const contact_forces *f, int j) { return member_of(f, j)->by.slopes != NULL; }
 
 contact_slopes contact_forces_slopes(const contact_forces *f, int j, double th, double omega)
 {
   const member *m = member_of(f, j);
-  return m->by->slopes(m->evaluator, th, omega);
+  return m->by.slopes(m->evaluator, th, omega);
 }
 
 contact_regime contact_forces_regime(const contact_forces *f, int j) { return member_of(f, j)->regime; }
@@ -345,8 +315,8 @@ bool contact_forces_at(contact_forces *f, double omega)
   bool any = false;
   for (int j = 0; j < f->n_members; ++j) {
     member *m = &f->members[j];
-    if (!m->by->at_omega) continue;
-    m->by->at_omega(m->evaluator, omega);
+    if (!m->by.at_omega) continue;
+    m->by.at_omega(m->evaluator, omega);
     any = true;
   }
   return any;
@@ -356,7 +326,7 @@ void contact_forces_add_by_omega(const contact_forces *f, double *dF)
 {
   for (int j = 0; j < f->n_members; ++j) {
     const member *m = &f->members[j];
-    const double *by = m->by->by_omega ? m->by->by_omega(m->evaluator) : NULL;
+    const double *by = m->by.by_omega ? m->by.by_omega(m->evaluator) : NULL;
     for (int d = 0; d < m->n_dof && by; ++d) scatter(f, &m->of[d], by + d * f->length, dF);
   }
 }

@@ -19,7 +19,7 @@ int given_motion_planar_dof(const contact *law) { return law->kn > 0 ? 3 : 2; }
 /* Directions of a pair: X holds u_1, u_2 and v themselves. */
 static const double unit[GIVEN_MOST_DOF][GIVEN_MOST_DOF] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 
-static void place(const given_motion *m, placed_contact *out)
+static void given_motion_place(const given_motion *m, placed_contact *out)
 {
   for (int j = 0; j < m->n_contacts && !m->pair; ++j) {
     const moving_contact *c = &m->contacts[j];
@@ -37,14 +37,14 @@ hc_status given_motion_force(const given_motion *m, hbm_restart restart, int n_t
 {
   const int n = series_length(m->n_harm), contacts = m->pair ? 2 : m->n_contacts;
   const size_t size = (size_t)m->n_dof * (size_t)n;
-  const evaluator_settings how = {.n_harm = m->n_harm, .n_time = n_time, .restart = restart};
+  const evaluator_settings how = {.n_harm = m->n_harm, .n_time = n_time, .slider = {.restart = restart}};
   contact_forces *f = NULL;
   contact_report report;
   placed_contact *placed = calloc((size_t)contacts + 1, sizeof *placed);
   double *X = calloc(2 * size, sizeof *X), *force = X ? X + size : NULL; /* by coefficient, then by coordinate */
   hc_status st = placed && X ? HC_OK : HC_NO_MEMORY;
   if (st == HC_OK) {
-    place(m, placed);
+    given_motion_place(m, placed);
     const hbm_force by = n_time == GIVEN_EXACT ? HBM_FORCE_EXACT : HBM_FORCE_SAMPLED;
     st = contact_forces_new_of(m->n_dof, contacts, placed, by, &how, &f);
   }

@@ -36,7 +36,7 @@ typedef enum planar_orbit {
 
 typedef struct planar_aft {
   int n_dof, n_harm, n_time;
-  hbm_restart restart;
+  slider_rule slider;
   contact law;         /* law of one half */
   double *motion[3];   /* [n_time] [length] u_1, u_2 and r (planar_slider.h), a constant if the normal force is */
   double *traction[2]; /* [n_time] [force] */
@@ -71,7 +71,7 @@ static inline planar_sample planar_aft_sample(const planar_aft *a, int i)
 
 /* ---- made and freed ------------------------------------------------------------------------------ */
 
-static void let_go(void *self)
+static void planar_aft_let_go(void *self)
 {
   planar_aft *a = self;
   if (!a) return;
@@ -80,7 +80,7 @@ static void let_go(void *self)
   free(a);
 }
 
-static hc_status make(const contact_coordinates *c, const evaluator_settings *how, void **self)
+static hc_status planar_aft_make(const contact_coordinates *c, const evaluator_settings *how, void **self)
 {
   const contact *law = &c->moved.law;
   *self = NULL;
@@ -88,8 +88,8 @@ static hc_status make(const contact_coordinates *c, const evaluator_settings *ho
   if (c->n_dof < 2 || c->n_dof > 3 || !contact_has_friction(law)) return HC_BAD_INPUT;
   planar_aft *a = calloc(1, sizeof *a);
   if (!a) return HC_NO_MEMORY;
-  *a = (planar_aft){
-      .n_dof = c->n_dof, .n_harm = how->n_harm, .n_time = how->n_time, .restart = how->restart, .law = *law};
+  *a =
+      (planar_aft){.n_dof = c->n_dof, .n_harm = how->n_harm, .n_time = how->n_time, .slider = how->slider, .law = *law};
   const size_t n = (size_t)a->n_time, length = (size_t)series_length(a->n_harm), n_col = (size_t)a->n_dof * length + 2;
   workspace *w = &a->memory;
   for (int d = 0; d < 3; ++d) a->motion[d] = workspace_doubles(w, n);
@@ -108,7 +108,7 @@ static hc_status make(const contact_coordinates *c, const evaluator_settings *ho
   const hc_status st = period_samples_make(a->n_harm, a->n_time, &a->memory, &a->of);
   if (st == HC_OK) series_grid_table_fill(a->n_harm, a->table);
   if (st == HC_OK) *self = a;
-  else let_go(a);
+  else planar_aft_let_go(a);
   return st;
 }
 
@@ -128,7 +128,8 @@ static planar_move planar_aft_step(const planar_aft *a, int i, bool entering, do
 {
   const planar_sample from = planar_aft_sample(a, i ? i - 1 : a->n_time - 1), to = planar_aft_sample(a, i);
   if (entering && i == 0 && from.r > 0 && to.r > 0) return planar_slider_enter(&to, w, slope);
-  return planar_slider_step(a->restart, &from, &to, w, slope);
+  const planar_rule *other = a->slider.in_plane;
+  return other ? other->step(&from, &to, w, slope) : planar_slider_step(a->slider.restart, &from, &to, w, slope);
 }
 
 typedef struct period {
@@ -148,7 +149,7 @@ static period drag(planar_aft *a, bool entering, bool again, bool differentiated
     if (!same) {
       const planar_move move = planar_aft_step(a, i, entering, w, differentiated ? &slope : NULL);
       const double kt = move == PLANAR_APART ? 0 : a->law.kt;
-      same = again && (move != PLANAR_APART || planar_slider_forgets(a->restart));
+      same = again && (move != PLANAR_APART || !a->slider.keeps);
       for (int d = 0; d < 2; ++d) {
         const double traction = kt * (a->motion[d][i] - w[d]);
         same &= traction == a->traction[d][i];
@@ -186,7 +187,7 @@ static bool planar_aft_fixed_point(double A[2][2], const double b[2], double x[2
 }
 
 /* Bound of the slider's error [length], if a period with derivative A misses closing by `missed`. */
-static double error_of(const period *p, double missed)
+static double planar_aft_error(const period *p, double missed)
 {
   const double det = (1 - p->A[0][0]) * (1 - p->A[1][1]) - p->A[0][1] * p->A[1][0];
   return missed * (2 + fabs(p->A[0][0]) + fabs(p->A[0][1]) + fabs(p->A[1][0]) + fabs(p->A[1][1])) / fabs(det);
@@ -219,7 +220,7 @@ static hc_status close_orbit(planar_aft *a, bool apart, bool near_orbit, double 
   for (a->passes = 1; a->passes < PLANAR_AFT_PASSES; ++a->passes) {
     memcpy(a->start, w, sizeof a->start);
     const bool guesses = near_orbit || a->passes >= PLANAR_PLAIN_PASSES, again = a->passes > 1 || !near_orbit;
-    const period p = drag(a, false, again && !stepped, guesses && !(apart && planar_slider_forgets(a->restart)), w);
+    const period p = drag(a, false, again && !stepped, guesses && !(apart && !a->slider.keeps), w);
     if (stepped && !p.slips && share == 1) {
       share = 0.9, stepped = false, before = missed = INFINITY;
       memcpy(w, back, sizeof back);
@@ -229,7 +230,7 @@ static hc_status close_orbit(planar_aft *a, bool apart, bool near_orbit, double 
     missed = hypot(step[0], step[1]);
     a->orbit = p.slips || p.separates ? PLANAR_CLOSED : guessed ? PLANAR_GUESSED : PLANAR_DRAGGED;
     if (missed <= enough || (missed <= most && !(missed < 0.5 * before) && stepped))
-      return !near_orbit || (error_of(&p, missed) <= alike && slips_far(a, far)) ? HC_OK : HC_NOT_CLOSED;
+      return !near_orbit || (planar_aft_error(&p, missed) <= alike && slips_far(a, far)) ? HC_OK : HC_NOT_CLOSED;
     const bool guess = guesses && (!stepped || missed < 0.5 * before);
     before = missed;
     double change[2];
@@ -245,15 +246,12 @@ static hc_status close_orbit(planar_aft *a, bool apart, bool near_orbit, double 
 
 /* ---- rest ----------------------------------------------------------------------------------------------- */
 
-/* True if the restart uses planar_rest.h; the others follow periods, as other programs do. */
-static bool rests_where_nearest(const planar_aft *a)
-{
-  return a->restart == HBM_RESTART_INTERPOLATED || a->restart == HBM_RESTART_SAMPLE;
-}
+/* True if the restart uses planar_rest.h; plugged-in sliders follow periods, as other programs do. */
+static bool rests_where_nearest(const planar_aft *a) { return !a->slider.in_plane && !a->slider.once; }
 
 /* a->rest, from the motion itself: with samples only, the instants whose discs hold the slider would jump between
  * them. */
-static hc_status find_rest(planar_aft *a, const double *X)
+static hc_status planar_aft_find_rest(planar_aft *a, const double *X)
 {
   const int length = series_length(a->n_harm);
   const planar_motion m = planar_motion_make(&a->law, a->n_harm, X, X + length, a->n_dof == 3 ? X + 2 * length : NULL);
@@ -275,7 +273,7 @@ static void take_rest(planar_aft *a)
 /* ---- the force ---------------------------------------------------------------------------------------- */
 
 /* The state at a sample: separated, stuck or slipping. */
-static int state_of(unsigned char move) { return move == PLANAR_PLACED ? PLANAR_HELD : move; }
+static int planar_aft_state(unsigned char move) { return move == PLANAR_PLACED ? PLANAR_HELD : move; }
 
 static void fill_report(const planar_aft *a, contact_report *out)
 {
@@ -285,7 +283,7 @@ static void fill_report(const planar_aft *a, contact_report *out)
     apart |= a->move[i] == PLANAR_APART;
     touches |= a->move[i] != PLANAR_APART;
     slips |= a->move[i] == PLANAR_SLIPPED;
-    out->transitions += state_of(a->move[i]) != state_of(a->move[i ? i - 1 : a->n_time - 1]);
+    out->transitions += planar_aft_state(a->move[i]) != planar_aft_state(a->move[i ? i - 1 : a->n_time - 1]);
   }
   if (slips) out->regime = CONTACT_SLIPS;
   if (apart) out->regime = touches ? CONTACT_SEPARATES : CONTACT_LINEAR;
@@ -293,7 +291,7 @@ static void fill_report(const planar_aft *a, contact_report *out)
 }
 
 /* NOLINTNEXTLINE(readability-non-const-parameter): the signature is contact_evaluator.h's */
-static hc_status evaluate(void *self, const double *X, double *F, double *jac, contact_report *report)
+static hc_status planar_aft_evaluate(void *self, const double *X, double *F, double *jac, contact_report *report)
 {
   planar_aft *a = self;
   (void)jac; /* by `jacobian` instead */
@@ -311,14 +309,14 @@ static hc_status evaluate(void *self, const double *X, double *F, double *jac, c
   double least = a->motion[2][0];
   for (int i = 1; i < a->n_time; ++i) least = fmin(least, a->motion[2][i]);
   const bool apart = !(least > 0);
-  const bool once = a->restart == HBM_RESTART_ONE_PASS || a->restart == HBM_RESTART_ONE_PASS_SAMPLE;
+  const bool once = a->slider.once;
   double w[2] = {a->start[0], a->start[1]};
   const bool near_orbit = a->orbit == PLANAR_CLOSED && !once && !apart;
   hc_status st = near_orbit ? close_orbit(a, apart, true, w, size) : HC_NOT_CLOSED;
   a->rest = (planar_rest){.exists = false};
   if (st != HC_OK || a->orbit != PLANAR_CLOSED) { /* not found from the last motion's orbit */
     st = HC_OK;
-    if (!apart && rests_where_nearest(a)) st = find_rest(a, X);
+    if (!apart && rests_where_nearest(a)) st = planar_aft_find_rest(a, X);
     if (st != HC_OK) return st;
     memcpy(w, a->rest.w, sizeof w);
     memcpy(a->start, w, sizeof w);
@@ -334,7 +332,7 @@ static hc_status evaluate(void *self, const double *X, double *F, double *jac, c
   return HC_OK;
 }
 
-static void sliders(const void *self, double *w)
+static void planar_aft_sliders(const void *self, double *w)
 {
   const planar_aft *a = self;
   memcpy(w, a->first, sizeof a->first);
@@ -357,7 +355,7 @@ static void empty_panel(planar_aft *a)
 }
 
 /* whole -= kt dw at several samples, `sum` being the sum of their harmonics; queued until empty_panel. */
-static void subtract(planar_aft *a, const double *restrict sum)
+static void planar_aft_subtract(planar_aft *a, const double *restrict sum)
 {
   const int length = series_length(a->n_harm), n = columns(a) + 2;
   const double scale = 2 * a->law.kt / a->n_time;
@@ -373,7 +371,7 @@ static void subtract_held(planar_aft *a)
 {
   const size_t bytes = (size_t)series_length(a->n_harm) * sizeof(double);
   if (a->held[0] == 0) return; /* no sample */
-  subtract(a, a->held);
+  planar_aft_subtract(a, a->held);
   memset(a->held, 0, bytes);
 }
 
@@ -386,7 +384,7 @@ static void clear_rows(planar_aft *a)
 static void differentiate_step(planar_aft *a, int i, planar_move move, const planar_slope *slope, bool forces)
 {
   if (move != PLANAR_HELD && forces) subtract_held(a);
-  if (move == PLANAR_APART && planar_slider_forgets(a->restart)) clear_rows(a);
+  if (move == PLANAR_APART && !a->slider.keeps) clear_rows(a);
   if (move == PLANAR_SLIPPED || move == PLANAR_PLACED) {
     harmonics_at(a, i ? i - 1 : a->n_time - 1, a->basis[0]);
     harmonics_at(a, i, a->basis[1]);
@@ -406,7 +404,7 @@ static void differentiate_step(planar_aft *a, int i, planar_move move, const pla
       }
   }
   if (!forces) return;
-  if (move == PLANAR_SLIPPED) subtract(a, a->basis[1]);
+  if (move == PLANAR_SLIPPED) planar_aft_subtract(a, a->basis[1]);
   else if (move != PLANAR_APART) period_samples_add(&a->of, 1, i, a->held);
 }
 
@@ -511,7 +509,7 @@ static void add_contact_stiffness(planar_aft *a, double stiffness, int d, double
   force_jacobian_add(a->n_harm, a->symbol, (int)ld, jac + (ld + 1) * (size_t)d * length);
 }
 
-static void jacobian(void *self, double *jac)
+static void planar_aft_jacobian(void *self, double *jac)
 {
   planar_aft *a = self;
   const size_t n = (size_t)columns(a), rows = 2 * (size_t)series_length(a->n_harm);
@@ -530,5 +528,8 @@ static void jacobian(void *self, double *jac)
   if (a->n_dof == 3) add_contact_stiffness(a, 2 * a->law.kn, 2, jac);
 }
 
-const contact_evaluator planar_aft_evaluator = {
-    .make = make, .free = let_go, .evaluate = evaluate, .jacobian = jacobian, .sliders = sliders};
+const contact_evaluator planar_aft_evaluator = {.make = planar_aft_make,
+                                                .free = planar_aft_let_go,
+                                                .evaluate = planar_aft_evaluate,
+                                                .jacobian = planar_aft_jacobian,
+                                                .sliders = planar_aft_sliders};

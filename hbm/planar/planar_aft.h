@@ -3,12 +3,12 @@
  * constant. Forces are T_1, T_2 and N - N0 of both halves (model.h); the given law is that of one half.
  *
  * With the restarts `interpolated` and `sample` a slider that can rest all period is placed by planar_rest.h, from the
- * motion itself: from samples the instants that hold it would jump. Where no rest exists, and with the other restarts,
- * which imitate other programs, it begins with w = 0 at th = 0, is moved into the circle there, and followed until it
- * returns to its place a period before; with the ONE_PASS restarts, for one period. make: HC_BAD_INPUT, HC_NO_MEMORY.
- * evaluate: HC_NOT_FINITE; HC_NOT_CLOSED if it does not return within 400 periods; allocates nothing; report may be
- * NULL. jacobian: that of the sampled F, aliasing included. dw/dX is that of the closed orbit where it slips or
- * separates, of the rest position, or of the periods from w = 0. */
+ * motion itself: from samples the instants that hold it would jump. Where no rest exists, and by a slider that was
+ * plugged in (slider.h), it begins with w = 0 at th = 0, is moved into the circle there, and followed until it returns
+ * to its place a period before, or for one period. make: HC_BAD_INPUT, HC_NO_MEMORY. evaluate: HC_NOT_FINITE;
+ * HC_NOT_CLOSED if it does not return within 400 periods; allocates nothing; report may be NULL. jacobian: that of the
+ * sampled F, aliasing included. dw/dX is that of the closed orbit where it slips or separates, of the rest position, or
+ * of the periods from w = 0. */
 #pragma once
 
 #include "hbm/contact/contact_evaluator.h"

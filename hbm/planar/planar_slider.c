@@ -69,30 +69,18 @@ planar_move planar_slider_enter(const planar_sample *to, double w[2], planar_slo
   return PLANAR_SLIPPED;
 }
 
-/* Contact was made since `from`. By the restart w starts at u of `from`, or of the point of the line with r = 0; the
- * mistakes: at 0, or as before contact was lost. */
-static planar_move return_after_separation(hbm_restart restart, const planar_sample *from, const planar_sample *to,
-                                           double w[2], planar_slope *slope)
+/* Contact was made since `from`: w is u there. */
+static planar_move return_after_separation(const planar_sample *from, const planar_sample *to, double w[2],
+                                           planar_slope *slope)
 {
-  if (restart == HBM_RESTART_KEPT) return planar_slider_enter(to, w, slope);
-  const bool on_motion = restart != HBM_RESTART_ZEROED;
-  const double rise = to->r - from->r, t = restart == HBM_RESTART_RADIAL ? -from->r / rise : 0;
-  const double way[2] = {to->u[0] - from->u[0], to->u[1] - from->u[1]};
-  for (int d = 0; d < 2; ++d) w[d] = on_motion ? from->u[d] + t * way[d] : 0;
+  for (int d = 0; d < 2; ++d) w[d] = from->u[d];
   if (slope) *slope = (planar_slope){.w = {{1, 0}, {0, 1}}};
   const planar_move move = planar_slider_enter(to, w, slope);
-  /* slope by w becomes slope by the motion, on which the start w depends (not for HBM_RESTART_ZEROED). */
-  for (int d = 0; d < 2 && slope; ++d) {
-    const double by_t = (slope->w[d][0] * way[0] + slope->w[d][1] * way[1]) / (rise * rise);
+  for (int d = 0; d < 2 && slope; ++d)
     for (int c = 0; c < 2; ++c) {
-      slope->from[d][c] = on_motion ? (1 - t) * slope->w[d][c] : 0;
-      slope->to[d][c] += t * slope->w[d][c];
+      slope->from[d][c] = slope->w[d][c];
       slope->w[d][c] = 0;
     }
-    if (restart != HBM_RESTART_RADIAL) continue;
-    slope->from[d][2] = -by_t * to->r;
-    slope->to[d][2] += by_t * from->r;
-  }
   return move == PLANAR_HELD ? PLANAR_PLACED : move;
 }
 
@@ -212,12 +200,11 @@ static planar_move touch_on_line(const planar_sample *from, const planar_sample 
 planar_move planar_slider_step(hbm_restart restart, const planar_sample *from, const planar_sample *to, double w[2],
                                planar_slope *slope)
 {
-  const bool on_line = restart == HBM_RESTART_INTERPOLATED || restart == HBM_RESTART_ONE_PASS;
+  const bool on_line = restart == HBM_RESTART_INTERPOLATED;
   if (!(to->r > 0)) {
-    for (int d = 0; d < 2 && planar_slider_forgets(restart); ++d) w[d] = to->u[d];
+    for (int d = 0; d < 2; ++d) w[d] = to->u[d];
     return PLANAR_APART;
   }
-  if (!(from->r > 0))
-    return on_line ? touch_on_line(from, to, w, slope) : return_after_separation(restart, from, to, w, slope);
+  if (!(from->r > 0)) return on_line ? touch_on_line(from, to, w, slope) : return_after_separation(from, to, w, slope);
   return on_line ? go_along_line(from, to, w, slope) : planar_slider_enter(to, w, slope);
 }

@@ -7,13 +7,13 @@
  * r is computed with N as if in contact, so it becomes negative where contact is lost. Two rules:
  *     along the line   between samples u and r vary linearly, and the law is integrated exactly: as the restart
  *                      `interpolated` does with one tangent. Error of order 2 in the step.
- *     radial return    the slider stays, or moves straight onto the circle about the next sample, as in other programs:
- *                      for the restart `sample` and the mistakes that hbm_settings.h lists. Error of order 1 where the
- *                      direction of slip turns, since each step uses the direction at its end.
+ *     radial return    the slider stays, or moves straight onto the circle about the next sample: with the restart
+ *                      `sample`, and as other programs do. Error of order 1 where the direction of slip turns, since
+ *                      each step uses the direction at its end.
  * On a straight motion both equal the law of one tangent. libm only, nothing is allocated, cannot fail. */
 #pragma once
 
-#include "hbm/hbm_settings.h"
+#include "hbm/contact/slider.h"
 
 /* A sample of the motion: u [length], r [length] as above. */
 typedef struct planar_sample {
@@ -37,8 +37,10 @@ typedef struct planar_slope {
 planar_move planar_slider_step(hbm_restart restart, const planar_sample *from, const planar_sample *to, double w[2],
                                planar_slope *slope);
 
+/* The same as it is plugged in. */
+typedef struct planar_rule {
+  planar_move (*step)(const planar_sample *from, const planar_sample *to, double w[2], planar_slope *slope);
+} planar_rule;
+
 /* Moves w into the circle about `to`: start of the first period. */
 planar_move planar_slider_enter(const planar_sample *to, double w[2], planar_slope *slope);
-
-/* True if w is reset when contact is lost; false for HBM_RESTART_KEPT. */
-static inline bool planar_slider_forgets(hbm_restart restart) { return restart != HBM_RESTART_KEPT; }

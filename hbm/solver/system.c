@@ -15,7 +15,7 @@ hc_status hbm_system_init(hbm_system *sys, const model *m, const hbm_settings *h
   sys->metric = metric_share(shared);
   if (st == HC_OK && !shared) st = metric_new(m, sys->linear, &sys->metric);
   if (st != HC_OK) return st;
-  if (how->mistakes.hysteretic) condensation_make_hysteretic(sys->linear);
+  if (how->plug_in && how->plug_in->damping) condensation_damp(sys->linear, how->plug_in->damping);
   sys->dim = condensation_dim(sys->linear);
   sys->n_coef = hbm_system_length(sys, n_harm);
   sys->first = how->keep_mean ? 0 : sys->dim;
@@ -34,7 +34,7 @@ hc_status hbm_system_init(hbm_system *sys, const model *m, const hbm_settings *h
   sys->z = workspace_array(w, dim, sizeof *sys->z);
   sys->pivot = workspace_array(w, dim, sizeof *sys->pivot);
   if (sys->memory.failed) return HC_NO_MEMORY;
-  const evaluator_settings by = {n_harm, n_time, how->restart, how->mistakes};
+  const evaluator_settings by = {n_harm, n_time, {.restart = how->restart}, how->plug_in};
   return contact_forces_new(m, sys->linear, how->force, &by, &sys->contacts);
 }
 
@@ -130,12 +130,6 @@ static hc_status drop_means(const hbm_system *sys, double *R)
   return isfinite(sum) ? HC_OK : HC_NOT_FINITE;
 }
 
-/* What a coefficient of an even harmonic is multiplied by where those are to be zero [force/length]. */
-static double dropped(const model *m, double omega) { return *m->stiffness + *m->mass * omega * omega; }
-
-/* The first coefficient behind those of harmonic h. */
-static size_t behind(const hbm_system *sys, int h) { return sines(sys, h) + (size_t)sys->dim; }
-
 void hbm_system_at(hbm_system *sys, double omega)
 {
   if (omega == sys->omega) return;
@@ -154,10 +148,6 @@ hc_status hbm_system_residual(hbm_system *sys, double omega, const double *X, do
   for (int i = 0; i < sys->n_coef; ++i) sys->rows[i] += sys->F[i];
   for (int l = 0; l < sys->model->n_loads; ++l)
     subtract_load(sys, condensation_load(sys->linear, l), sys->model->loads[l].harmonic, sys->force_factor);
-  const hbm_mistakes *wrong = &sys->how.mistakes;
-  for (int d = 0; d < sys->dim; ++d) sys->rows[d] += wrong->mean_error * sys->F[d];
-  for (int h = 0; wrong->odd_only && h <= sys->n_harm; h += 2)
-    for (size_t i = cosines(sys, h); i < behind(sys, h); ++i) sys->rows[i] = dropped(sys->model, omega) * X[i];
   return drop_means(sys, R);
 }
 
@@ -206,17 +196,6 @@ void hbm_system_jacobian(hbm_system *sys, double omega, int ld, double *jac)
   }
   if (condensation_at(sys->linear, omega, sys->more_damping) != HC_OK) return; /* it was, in the residual */
   add_linear_stiffness(sys, ld, jac);
-  /* jac is whole but for the mistakes. */
-  const hbm_mistakes *wrong = &sys->how.mistakes;
-  for (int col = 0; sys->first == 0 && wrong->mean_error != 0 && col < sys->n; ++col)
-    for (int d = 0; d < sys->dim; ++d)
-      jac[d + (size_t)ld * (size_t)col] += wrong->mean_error * dF[d + (size_t)sys->n_coef * (size_t)col];
-  for (int h = 0; wrong->odd_only && h <= sys->n_harm; h += 2)
-    for (size_t i = cosines(sys, h); i < behind(sys, h); ++i)
-      for (int col = 0; i >= (size_t)sys->first && col < sys->n; ++col) {
-        const size_t row = i - (size_t)sys->first;
-        jac[row + (size_t)ld * (size_t)col] = (size_t)col == row ? dropped(sys->model, omega) : 0;
-      }
 }
 
 /* Harmonic h of X as complex amplitudes. */
@@ -250,11 +229,7 @@ static void differentiate(hbm_system *sys, condensation_change (*by)(const conde
 
 void hbm_system_domega(hbm_system *sys, double omega, const double *X, double *dR)
 {
-  if (condensation_at(sys->linear, omega, sys->more_damping) != HC_OK) return;
-  differentiate(sys, condensation_by_omega, X, dR);
-  for (int h = 0; sys->how.mistakes.odd_only && h <= sys->n_harm; h += 2)
-    for (size_t i = cosines(sys, h); i < behind(sys, h); ++i)
-      if (i >= (size_t)sys->first) dR[i - (size_t)sys->first] = 2 * *sys->model->mass * omega * X[i];
+  if (condensation_at(sys->linear, omega, sys->more_damping) == HC_OK) differentiate(sys, condensation_by_omega, X, dR);
 }
 
 void hbm_system_ddamping(hbm_system *sys, double omega, const double *X, double *dR)

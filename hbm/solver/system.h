@@ -6,9 +6,8 @@
  *
  * X: the coordinates' harmonics, ordered by coefficient, then by coordinate (contact_forces.h); of an oscillator S_h =
  * K - M h^2 omega^2 + i h omega C and X is that of x. F: contact force harmonics. phi = 1, and D = 0 in S, but on a
- * ramp (ramp.h). Without harmonic 0 (the paper's mode) the means are 0 and their rows are dropped. The mistakes of
- * hbm_settings.h: harmonic 0 of F is multiplied, or the rows of even harmonics become (K + M omega^2) X = 0. Vectors
- * have dim (2H+1) entries, the means included; the unknowns are the n entries from X[first] on. */
+ * ramp (ramp.h). Without harmonic 0 (the paper's mode) the means are 0 and their rows are dropped. Vectors have
+ * dim (2H+1) entries, the means included; the unknowns are the n entries from X[first] on. */
 #pragma once
 
 #include "hbm/forces/contact_forces.h"

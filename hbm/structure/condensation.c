@@ -17,7 +17,7 @@ struct condensation {
   double more_mass;       /* [1/mass] n/trace M */
   /* the rest is valid for the last condensation_at; [h] is harmonic h */
   double omega, more_damping;
-  bool hysteretic; /* condensation_make_hysteretic */
+  condensation_damping *damping; /* NULL: viscous, i h omega C */
   bool known;
   bool loaded;               /* dim = n only: `load` is filled; later only inertial loads change with omega */
   bool *by_compliance;       /* [n_harm + 1] S of the harmonic is from the compliance */
@@ -39,7 +39,8 @@ struct condensation {
 static condensation_change dynamic_at(const condensation *c, int h)
 {
   const double w = h * c->omega;
-  return (condensation_change){-w * w + I * (w * c->more_damping * c->more_mass), I * (c->hysteretic ? h > 0 : w), 0};
+  const double complex of_C = c->damping ? c->damping(h, c->omega, &(double complex){0}) : I * w;
+  return (condensation_change){-w * w + I * (w * c->more_damping * c->more_mass), of_C, 0};
 }
 
 static size_t entry(const condensation *c, int row, int column)
@@ -60,9 +61,9 @@ static double complex Z_at(const condensation *c, condensation_change dynamic, s
 /* True if Z_yy of harmonic h is diagonal; for h = 0 damping does not matter. */
 static bool rest_is_diagonal(const condensation *c, int h) { return c->basis.diagonal || (c->basis.modes && h == 0); }
 
-/* Arguments of compliance.h for harmonic h: w, reach, d. */
-static double frequency(const condensation *c, int h) { return h * c->omega; }
-static double reach_of(const condensation *c) { return frequency(c, c->n_harm); }
+/* Arguments of compliance.h for harmonic h: w, reach. */
+static double condensation_frequency(const condensation *c, int h) { return h * c->omega; }
+static double condensation_reach(const condensation *c) { return condensation_frequency(c, c->n_harm); }
 static double more_rate(const condensation *c) { return c->more_damping * c->more_mass; }
 
 /* Least size of the rest for which the sum over modes is the faster way. */
@@ -110,9 +111,9 @@ void condensation_free(condensation *c)
   free(c);
 }
 
-void condensation_make_hysteretic(condensation *c)
+void condensation_damp(condensation *c, condensation_damping *damping)
 {
-  c->hysteretic = true;
+  c->damping = damping;
   compliance_free(c->compliance); /* valid for viscous damping only */
   c->compliance = NULL;
 }
@@ -235,7 +236,7 @@ static hc_status fill_by_rest(condensation *c, int h)
 }
 
 /* out[dim] = S a. */
-static void multiply(int dim, const double complex *S, const double complex *a, double complex *out)
+static void condensation_multiply(int dim, const double complex *S, const double complex *a, double complex *out)
 {
   for (int d = 0; d < dim; ++d) out[d] = 0;
   for (int e = 0; e < dim; ++e)
@@ -248,13 +249,15 @@ static bool fill_by_compliance(condensation *c, int h)
   const size_t dim = (size_t)c->basis.dim;
   double complex *S = c->S + (size_t)h * dim * dim;
   if (!c->compliance || h == 0) return false;
-  if (compliance_at(c->compliance, frequency(c, h), reach_of(c), more_rate(c), S, c->workspace) != HC_OK) return false;
+  if (compliance_at(c->compliance, condensation_frequency(c, h), condensation_reach(c), more_rate(c), S,
+                    c->workspace) != HC_OK)
+    return false;
   for (size_t l = 0; l < (size_t)c->m->n_loads; ++l) {
     if (c->m->loads[l].harmonic != h) continue;
     for (size_t d = 0; d < dim; ++d)
       c->motion[l * dim + d] =
           load_factor(c, (int)l) * (c->workspace[2 * l * dim + d] - I * c->workspace[(2 * l + 1) * dim + d]);
-    multiply(c->basis.dim, S, c->motion + l * dim, c->load + l * dim);
+    condensation_multiply(c->basis.dim, S, c->motion + l * dim, c->load + l * dim);
   }
   return true;
 }
@@ -321,8 +324,9 @@ const double complex *condensation_load(const condensation *c, int i)
 
 condensation_change condensation_by_omega(const condensation *c, int h)
 {
-  return (condensation_change){-2.0 * h * h * c->omega + I * (h * c->more_damping * c->more_mass),
-                               c->hysteretic ? 0 : I * h, 2 / c->omega};
+  double complex of_C = I * h;
+  if (c->damping) c->damping(h, c->omega, &of_C);
+  return (condensation_change){-2.0 * h * h * c->omega + I * (h * c->more_damping * c->more_mass), of_C, 2 / c->omega};
 }
 
 condensation_change condensation_by_damping(const condensation *c, int h)
@@ -333,10 +337,10 @@ condensation_change condensation_by_damping(const condensation *c, int h)
 /* dG and dg of compliance.h. NULL if not available: the harmonic is then by Z_yy (fill_by_rest). */
 static const double complex *change_by_compliance(condensation *c, int h, condensation_change by)
 {
-  const double w = frequency(c, h);
+  const double w = condensation_frequency(c, h);
   const double complex ds = by.beta, dd = by.beta == 0 ? by.alpha / (I * w) : 0, *dG;
   if (!c->by_compliance[h]) return NULL;
-  const hc_status st = compliance_change(c->compliance, w, reach_of(c), more_rate(c), ds, dd, &dG);
+  const hc_status st = compliance_change(c->compliance, w, condensation_reach(c), more_rate(c), ds, dd, &dG);
   if (st == HC_OK) return dG;
   c->by_compliance[h] = fill_by_rest(c, h) != HC_OK;
   return NULL;
@@ -349,9 +353,9 @@ static void apply_by_compliance(const condensation *c, int h, const double compl
   const int dim = c->basis.dim;
   const double complex *S = condensation_stiffness(c, h);
   double complex *force = vector, *motion = vector + dim;
-  multiply(dim, S, a, force);
-  multiply(dim, dG, force, motion);
-  multiply(dim, S, motion, dS_a);
+  condensation_multiply(dim, S, a, force);
+  condensation_multiply(dim, dG, force, motion);
+  condensation_multiply(dim, S, motion, dS_a);
   for (int d = 0; d < dim; ++d) dS_a[d] = -dS_a[d];
 }
 
@@ -424,7 +428,7 @@ void condensation_load_change(condensation *c, int l, condensation_change by, do
     const double complex *dg = dG + dim * dim + 2 * (size_t)l * dim;
     apply_by_compliance(c, h, dG, c->motion + (size_t)l * dim, c->vector, dp);
     for (size_t d = 0; d < dim; ++d) c->workspace[d] = load_factor(c, l) * (dg[d] - I * dg[dim + d]);
-    multiply(c->basis.dim, condensation_stiffness(c, h), c->workspace, c->vector);
+    condensation_multiply(c->basis.dim, condensation_stiffness(c, h), c->workspace, c->vector);
     for (size_t d = 0; d < dim; ++d) dp[d] += c->vector[d];
   } else {
     memset(c->vector, 0, rest * sizeof *c->vector);
@@ -442,7 +446,8 @@ static bool response_by_compliance(condensation *c, int h, int r, double factor,
   double complex *G_r = c->vector, *g_r = c->workspace;
   const double complex *S = c->S + (size_t)h * (size_t)dim * (size_t)dim;
   if (!c->by_compliance[h]) return false;
-  if (compliance_of_response(c->compliance, frequency(c, h), reach_of(c), more_rate(c), r, G_r, g_r) != HC_OK)
+  if (compliance_of_response(c->compliance, condensation_frequency(c, h), condensation_reach(c), more_rate(c), r, G_r,
+                             g_r) != HC_OK)
     return false;
   *rest_of_it = 0;
   for (int e = 0; e < dim; ++e) {

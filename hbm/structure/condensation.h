@@ -25,9 +25,9 @@ typedef struct condensation condensation;
 hc_status condensation_new(const model *m, int n_harm, condensation **out);
 void condensation_free(condensation *c); /* NULL is allowed */
 
-/* Hysteretic damping from now on: force i C x for harmonics h > 0, at every frequency. A deliberate mistake, for
- * compare/verify/. */
-void condensation_make_hysteretic(condensation *c);
+/* From now on C has this factor in Z of harmonic h, *by_omega being its derivative, in the place of i h omega. */
+typedef double complex condensation_damping(int h, double omega, double complex *by_omega);
+void condensation_damp(condensation *c, condensation_damping *damping);
 
 /* Number of coordinates q. */
 int condensation_dim(const condensation *c);

@@ -84,7 +84,8 @@ static hc_status sampled_tractions(lab *l, int n, const moving_contact *contacts
   for (int i = 0; i < n && st == HC_OK; ++i) x[i] = l->values[(size_t)i * (size_t)l->columns + 1];
   for (int j = 0; j < l->sc.n_contacts && st == HC_OK; ++j) {
     const slider_motion motion = {x, x, contacts[j].cu[0], contacts[j].cv[0], 1, 0};
-    slider_follow(&contacts[j].law, l->sc.hbm.restart, n, &motion, T, again, states, states + n);
+    const slider_rule rule = {.restart = l->sc.hbm.restart};
+    slider_follow(&contacts[j].law, &rule, n, &motion, T, again, states, states + n);
     for (int i = 0; i < n; ++i) instant(l, i, j)[3] = T[i];
   }
   free(x);

@@ -97,7 +97,7 @@ static inline void sampled(int n_harm, int n_dof, const moving_contact *c, const
                            double *w_at_zero)
 {
   const contact_coordinates at = {.n_dof = n_dof, .moved = *c};
-  const evaluator_settings how = {.n_harm = n_harm, .n_time = n_time, .restart = HBM_RESTART_INTERPOLATED};
+  const evaluator_settings how = {.n_harm = n_harm, .n_time = n_time, .slider = {.restart = HBM_RESTART_INTERPOLATED}};
   CHECK_MADE(void, self, aft_evaluator.make(&at, &how, &self));
   CHECK_FILLED(contact_report, report, aft_evaluator.evaluate(self, X, F, NULL, &report));
   aft_evaluator.sliders(self, w_at_zero);

@@ -1,6 +1,7 @@
 /* planar_scenes.h - contacts with two tangents, and motions in their plane, for tests. */
 #pragma once
 
+#include "compare/verify/equations/mistakes.h"
 #include "hbm/contact/aft.h"
 #include "hbm/contact/exact_force.h"
 #include "hbm/planar/planar_aft.h"
@@ -19,7 +20,7 @@ static inline contact circle_half(contact whole)
 static inline hc_status make_sampled(int H, int N, hbm_restart restart, int n_dof, const contact *half, void **out)
 {
   const contact_coordinates c = {.n_dof = n_dof, .moved = {.law = *half}};
-  const evaluator_settings how = {.n_harm = H, .n_time = N, .restart = restart};
+  const evaluator_settings how = {.n_harm = H, .n_time = N, .slider = {.restart = restart}};
   return planar_aft_evaluator.make(&c, &how, out);
 }
 
@@ -101,16 +102,15 @@ typedef struct planar_way {
   double rounding; /* [1] of a line's forces */
 } planar_way;
 
-static const hbm_restart planar_restarts[] = {HBM_RESTART_INTERPOLATED, HBM_RESTART_SAMPLE,
-                                              HBM_RESTART_ZEROED,       HBM_RESTART_KEPT,
-                                              HBM_RESTART_ONE_PASS,     HBM_RESTART_ONE_PASS_SAMPLE};
-enum { PLANAR_RESTARTS = sizeof planar_restarts / sizeof *planar_restarts };
+static const slider_rule *const planar_rules[] = {&verify_on_line, &verify_on_sample, &verify_zeroed,
+                                                  &verify_kept,    &verify_once,      &verify_once_sampled};
+enum { PLANAR_RULES = sizeof planar_rules / sizeof *planar_rules };
 
-static inline void *planar_way_make(const contact_evaluator *by, int H, int N, hbm_restart restart, int n_dof,
+static inline void *planar_way_make(const contact_evaluator *by, int H, int N, const slider_rule *slider, int n_dof,
                                     const moving_contact *moved)
 {
   const contact_coordinates c = {.n_dof = n_dof, .moved = *moved};
-  const evaluator_settings how = {.n_harm = H, .n_time = N, .restart = restart};
+  const evaluator_settings how = {.n_harm = H, .n_time = N, .slider = *slider};
   CHECK_MADE(void, self, by->make(&c, &how, &self));
   return self;
 }
@@ -156,13 +156,13 @@ static inline void check_on_line(const planar_way *way)
   double U[2 * CIRCLE_MAX_LENGTH], d[2 * CIRCLE_MAX_LENGTH], X[CIRCLE_MAX_X], F[CIRCLE_MAX_X], G[2 * CIRCLE_MAX_LENGTH];
   for (int trial = 0; trial < 600; ++trial) {
     const int H = 1 + trial % 9, N = 2 * H + 20 + 7 * (trial % 40), n = series_length(H);
-    const hbm_restart restart = planar_restarts[trial % PLANAR_RESTARTS];
+    const slider_rule *const rule = planar_rules[trial % PLANAR_RULES];
     const double angle = PI * random_signed(&seed), dir[2] = {cos(angle), sin(angle)};
     const contact law = random_circle(&seed);
     const int n_dof = law.kn > 0 ? 3 : 2;
     const moving_contact half = {.law = circle_half(law)}, on_line = {.law = law, .cu = {1, 0}, .cv = {0, n_dof - 2}};
-    void *a = planar_way_make(way->by, H, N, restart, n_dof, &half),
-         *b = planar_way_make(way->line, H, N, restart, n_dof - 1, &on_line);
+    void *a = planar_way_make(way->by, H, N, rule, n_dof, &half),
+         *b = planar_way_make(way->line, H, N, rule, n_dof - 1, &on_line);
     contact_report in_plane, in_line;
     random_motion(&seed, H, 1, 1, U);
     random_motion(&seed, H, 1, 1, U + n);
@@ -171,8 +171,8 @@ static inline void check_on_line(const planar_way *way)
     planar_way_derive(way->line, b, U, G, line_jac, &in_line);
     /* A place of rest in a plane is that of the motion itself, of a line that of its samples: off by the second
      * derivative times step^2/8 at the most, slopes by that times a step. */
-    const bool rests = way->sampled && in_plane.regime == CONTACT_STUCK &&
-                       (restart == HBM_RESTART_INTERPOLATED || restart == HBM_RESTART_SAMPLE);
+    const bool rests =
+        way->sampled && in_plane.regime == CONTACT_STUCK && (rule == &verify_on_line || rule == &verify_on_sample);
     const double motion = sum_abs(2 * n, U), step = rests ? 2 * PI * H / N : 0,
                  part = fmax(way->rounding, step * step / 8), tolerance = part * circle_force_size(&law, motion);
     for (int i = 0; i < n; ++i) {
@@ -220,7 +220,7 @@ static inline void check_turns_and_shifts(const planar_way *way)
     const int n_dof = law.kn > 0 ? 3 : 2;
     const double angle = PI * random_signed(&seed),
                  shift = way->sampled ? 2 * PI * step / N : PI * random_signed(&seed);
-    void *a = planar_way_make(way->by, H, N, planar_restarts[trial % 2], n_dof, &half);
+    void *a = planar_way_make(way->by, H, N, planar_rules[trial % 2], n_dof, &half);
     random_plane_motion(&seed, H, 1, X);
     const double tolerance = 1e-12 * circle_force_size(&law, sum_abs(3 * n, X));
     CHECK_FILLED(contact_report, report, way->by->evaluate(a, X, F, NULL, &report));
@@ -266,10 +266,10 @@ static inline void check_planar_jacobian(const planar_way *way)
     const moving_contact half = {.law = circle_half(law)};
     const int n_dof = law.kn > 0 ? 3 : 2, rows = n_dof * n;
     const bool corner = trial == 330; /* by radial return it comes to stick where two samples' circles meet */
-    const hbm_restart restart = corner            ? HBM_RESTART_SAMPLE
-                                : trial % 12 == 7 ? HBM_RESTART_RADIAL
-                                                  : planar_restarts[trial % PLANAR_RESTARTS];
-    planar_evaluation a = {way->by, planar_way_make(way->by, H, N, restart, n_dof, &half)};
+    const slider_rule *const rule = corner            ? &verify_on_sample
+                                    : trial % 12 == 7 ? &verify_radial
+                                                      : planar_rules[trial % PLANAR_RULES];
+    planar_evaluation a = {way->by, planar_way_make(way->by, H, N, rule, n_dof, &half)};
     contact_report report;
     random_plane_motion(&seed, H, 1, X);
     random_plane_motion(&seed, H, 1, d);
@@ -281,8 +281,8 @@ static inline void check_planar_jacobian(const planar_way *way)
       planar_way_derive(way->by, a.self, X, F, jac, &report);
       circle_product(rows, jac, d, product);
       for (int p = 0; p < rows; ++p)
-        CHECK_NEAR(product[p], slope[p], 1e-8 * size + disagreement, "trial %d restart %d regime %d row %d", trial,
-                   (int)restart, report.regime, p);
+        CHECK_NEAR(product[p], slope[p], 1e-8 * size + disagreement, "trial %d regime %d row %d", trial, report.regime,
+                   p);
       ++regimes[report.regime];
     }
     way->by->free(a.self);

@@ -48,7 +48,8 @@ static void check_the_same(const moving_contact *c, hbm_restart restart, int n, 
     }
   }
   const slider_motion motion = {full.x, full.x, c->cu[0], c->cv[0], c->cu[0], c->cv[0]};
-  slider_report r = slider_follow(&c->law, restart, n, &motion, f, again, found, settling);
+  const slider_rule rule = {.restart = restart};
+  slider_report r = slider_follow(&c->law, &rule, n, &motion, f, again, found, settling);
   int touching = 0, slipping = 0;
   for (int k = 0; k < r.n_intervals; ++k) {
     const int end = k + 1 < r.n_intervals ? found[k + 1].first : n;

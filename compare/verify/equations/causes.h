@@ -120,7 +120,7 @@
     "start each point from its neighbour's solution")
 /* clang-format on */
 #define VERIFY_CAUSE_NUMBER(code, word, meaning, remedy) code,
-enum { VERIFY_CAUSE_LIST(VERIFY_CAUSE_NUMBER) VERIFY_CAUSES };
+enum { VERIFY_CAUSE_LIST(VERIFY_CAUSE_NUMBER) VERIFY_CAUSES, CAUSE_NONE = VERIFY_CAUSES };
 #undef VERIFY_CAUSE_NUMBER
 
 /* Bits; one of the points stands alone, as the complement of its number: no equations have nearly all causes. More bits

@@ -13,12 +13,6 @@
 #include "numerics/dense.h"
 #include "numerics/norm.h"
 
-const verify_change_kind verify_changes[] = {
-#define VERIFY_CHANGE_WORDS(code, cause, words, scan, part) {cause, words, scan, part},
-    VERIFY_CHANGE_LIST(VERIFY_CHANGE_WORDS)
-#undef VERIFY_CHANGE_WORDS
-};
-
 enum { MOST_PAIRED_DOFS = 8 };
 
 int verify_change_variants(const model *m, verify_change c)
@@ -36,9 +30,23 @@ int verify_change_variants(const model *m, verify_change c)
   }
 }
 
+/* A change being made. */
+struct changing {
+  const model *of;           /* the case's */
+  verify_changed how;        /* its factor: that of the table, where the change has no number */
+  int which;                 /* how.which - 1: < 0 all */
+  model *own;                /* the other program's */
+  verify_mistakes *mistakes; /* in its equations */
+  bool keep_mean;
+  double *p, *offset; /* [n] room for a constant force; [responses] [length] theirs are own's plus these */
+  int contact, whole; /* number in the model of the contact that is changed, and of the one that it is a part of */
+  bool there;         /* own has the number of the law that is changed, even where its factor is 1 */
+  bool differs;       /* the equations do, whatever own is */
+};
+
 /* ---- vectors and matrices, by columns ---- */
 
-static void scale(size_t n, double factor, double *a)
+static void scale_all(size_t n, double factor, double *a)
 {
   for (size_t i = 0; i < n; ++i) a[i] *= factor;
 }
@@ -57,320 +65,13 @@ static void transpose(int n, double *A)
 }
 
 /* Rows i and k of A exchanged, and its columns. */
-static void exchange(int n, int i, int k, double *A)
+static void exchange_dofs(int n, int i, int k, double *A)
 {
   for (int j = 0; j < n; ++j) swap(&A[i + n * j], &A[k + n * j]);
   for (int j = 0; j < n; ++j) swap(&A[j + n * i], &A[j + n * k]);
 }
 
-/* ---- numbers of the model ---- */
-
-static void turn(int n, model_contact *c, double angle_deg)
-{
-  if (n == 1 && !contact_never_opens(&c->law)) model_direction(angle_deg, c->tangent, c->normal);
-}
-
-/* One side of the contact moves the other way: the last entry of a direction that has several. */
-static void turn_one_side(int n, double *direction)
-{
-  int entries = 0, last = 0;
-  for (int i = 0; i < n; ++i)
-    if (direction[i] != 0) ++entries, last = i;
-  if (entries > 1) direction[last] = -direction[last];
-}
-
-/* Tangent and normal by an angle in the plane that they span. */
-static void turn_both(int n, model_contact *c, double angle_deg)
-{
-  double along, across;
-  model_direction(angle_deg, &along, &across);
-  for (int i = 0; i < n; ++i) {
-    const double t = c->tangent[i], v = c->normal[i];
-    c->tangent[i] = along * t - across * v;
-    c->normal[i] = along * v + across * t;
-  }
-}
-
-/* Each direction by itself, or only one of the two. */
-static void change_pair(model_contact *c, verify_change change)
-{
-  const contact_pair without = change == CHANGE_NO_TANGENT_1 ? CONTACT_FIRST : CONTACT_SECOND;
-  if (c->pair == CONTACT_ALONE || c->pair == CONTACT_MORE) return;
-  c->circle = change == CHANGE_CIRCLE_LIMIT;
-  if ((change == CHANGE_NO_TANGENT_1 || change == CHANGE_NO_TANGENT_2) && c->pair == without) c->law.mu = 0;
-}
-
-/* A polynomial with powers one higher or lower; of lowered ones the linear spring goes into K. */
-static void change_powers(model *m, model_contact *c, bool up)
-{
-  double *const k = c->law.power;
-  if (up && k[CONTACT_POWERS - 1] != 0) return;
-  if (!up) add_outer(m->n, k[0], c->normal, c->normal, m->stiffness);
-  memmove(k + up, k + !up, (CONTACT_POWERS - 1) * sizeof *k);
-  k[up ? 0 : CONTACT_POWERS - 1] = 0;
-}
-
-static void change_contact(int n, model_contact *c, verify_change change, double factor)
-{
-  /* two contacts of a pair have half of the normal stiffness each (model.h) */
-  const double halves = c->pair == CONTACT_ALONE || c->pair == CONTACT_MORE ? 1 : 2;
-  const double kt = c->law.kt, angle = n == 1 ? atan2(*c->normal, *c->tangent) : 0, degree = TWO_PI / 360;
-  switch (change) {
-  case CHANGE_KT: c->law.kt *= factor; break;
-  case CHANGE_KN: c->law.kn *= factor; break;
-  case CHANGE_FRICTION: c->law.mu *= factor; break;
-  case CHANGE_GAP: c->law.gap *= factor; break;
-  case CHANGE_TURNED:
-    if (c->pair == CONTACT_ALONE && !is_zero(n, c->tangent) && !is_zero(n, c->normal)) turn_both(n, c, factor);
-    break;
-  case CHANGE_CONTACT_FORCE:
-    c->law.kt *= factor, c->law.kn *= factor, c->law.load *= factor;
-    scale(CONTACT_POWERS, factor, c->law.power);
-    break;
-  case CHANGE_EPSILON: c->law.epsilon *= factor; break;
-  case CHANGE_GAP_SIGN: c->law.gap = -c->law.gap; break;
-  case CHANGE_ANGLE_COMPLEMENT:
-    if (n == 1 && !contact_never_opens(&c->law)) swap(c->tangent, c->normal);
-    break;
-  case CHANGE_ANGLE_IN_RADIANS: turn(n, c, angle / (degree * degree)); break;
-  case CHANGE_ANGLE_IN_DEGREES: turn(n, c, angle); break;
-  case CHANGE_EXCHANGED:
-    if (c->law.load == 0) c->law.kt = halves * c->law.kn, c->law.kn = kt / halves;
-    break;
-  case CHANGE_NO_FRICTION: c->law.mu = 0; break;
-  case CHANGE_NO_KT: c->law.kt = 0; break;
-  case CHANGE_SQUARE_LIMIT:
-  case CHANGE_CIRCLE_LIMIT:
-  case CHANGE_NO_TANGENT_2:
-  case CHANGE_NO_TANGENT_1: change_pair(c, change); break;
-  case CHANGE_ONE_SIDE: turn_one_side(n, c->tangent), turn_one_side(n, c->normal); break;
-  default: break;
-  }
-}
-
-/* The first of the *parts that whole contact number `which` is in the model. */
-static model_contact *whole_contact(const model *m, int which, int *parts)
-{
-  int first = 0;
-  for (int whole = -1; first < m->n_contacts; ++first)
-    if ((whole += !contact_goes_on(m->contacts[first].pair)) == which) break;
-  for (*parts = 1; first + *parts < m->n_contacts && contact_goes_on(m->contacts[first + *parts].pair);) ++*parts;
-  return &m->contacts[first];
-}
-
-/* kt of whole contacts i < k, and kn where both have a normal spring; of a pair each of the two has half of kn. Not of
- * smooth ones, nor of those that are several springs across. */
-static void exchange_contacts(const model *m, int i, int k)
-{
-  int n[2];
-  model_contact *c[2] = {whole_contact(m, i, &n[0]), whole_contact(m, k, &n[1])};
-  for (int a = 0; a < 2; ++a)
-    if (c[a]->law.smooth != CONTACT_KINKED || (n[a] > 1 && c[a][1].pair == CONTACT_MORE)) return;
-  const contact law[2] = {c[0]->law, c[1]->law};
-  const bool normal = law[0].load == 0 && law[1].load == 0, tangential = law[0].mu > 0 && law[1].mu > 0;
-  for (int a = 0; a < 2; ++a)
-    for (int j = 0; j < n[a]; ++j) {
-      if (tangential) c[a][j].law.kt = law[!a].kt;
-      if (normal) c[a][j].law.kn = law[!a].kn * n[!a] / n[a];
-    }
-}
-
-/* The sums of M's rows on its diagonal. HC_BAD_INPUT: one of them is no mass. */
-static hc_status lump(int n, double *M)
-{
-  for (int i = 0; i < n; ++i) {
-    double sum = 0;
-    for (int k = 0; k < n; ++k) sum += M[i + n * k], M[i + n * k] = 0;
-    if (!(sum > 0)) return HC_BAD_INPUT;
-    M[i + n * i] = sum;
-  }
-  return HC_OK;
-}
-
-static void change_matrices(model *m, verify_change change, double factor)
-{
-  const size_t entries = (size_t)m->n * (size_t)m->n;
-  if (change == CHANGE_MASS) scale(entries, factor, m->mass);
-  if (change == CHANGE_DAMPING) scale(entries, factor, m->damping);
-  if (change == CHANGE_STIFFNESS) scale(entries, factor, m->stiffness);
-  /* Every contact stuck for good. */
-  if (change == CHANGE_STUCK) {
-    for (int j = 0; j < m->n_contacts; ++j) {
-      const model_contact *c = &m->contacts[j];
-      add_outer(m->n, c->law.kt, c->tangent, c->tangent, m->stiffness);
-      add_outer(m->n, c->law.kn, c->normal, c->normal, m->stiffness);
-    }
-  }
-  if (change == CHANGE_STUCK || change == CHANGE_NO_CONTACT) m->n_contacts = 0;
-  if (change == CHANGE_DAMPING_TRANSPOSED) transpose(m->n, m->damping);
-  if (change == CHANGE_STIFFNESS_TRANSPOSED) transpose(m->n, m->stiffness);
-}
-
-static double trace(int n, const double *A)
-{
-  double sum = 0;
-  for (int i = 0; i < n; ++i) sum += A[(size_t)i * (size_t)(n + 1)];
-  return sum;
-}
-
-/* C of the same damping ratio in every mode, the factor times the mean of theirs: M Phi diag(2 zeta omega) Phi^T M. */
-static hc_status damp_modes(model *m, double factor)
-{
-  const int n = m->n;
-  const size_t square = (size_t)n * (size_t)n;
-  double *phi = malloc((4 * square + (size_t)n) * sizeof *phi);
-  if (!phi) return HC_NO_MEMORY;
-  double *P = phi + square, *room = P + square, *lambda = room + 2 * square, ratio = 0;
-  hc_status st = dense_modes(n, m->stiffness, m->mass, lambda, phi);
-  if (st == HC_OK) dense_congruence(n, n, phi, m->damping, room, P);
-  for (int k = 0; k < n && st == HC_OK; ++k) {
-    const double w = sqrt(fmax(lambda[k], 0));
-    if (w > 0) ratio += factor * P[(size_t)k * (size_t)(n + 1)] / (2 * w * n);
-  }
-  if (st == HC_OK) dense_multiply(n, n, n, m->mass, phi, P);
-  for (int k = 0; k < n && st == HC_OK; ++k) scale((size_t)n, sqrt(2 * ratio * sqrt(fmax(lambda[k], 0))), P + k * n);
-  if (st == HC_OK) dense_transpose(n, n, P, room), dense_multiply(n, n, n, P, room, m->damping);
-  free(phi);
-  return st == HC_NO_MEMORY ? st : st == HC_OK && ratio > 0 ? HC_OK : HC_BAD_INPUT;
-}
-
-/* Damping of another kind, of the same trace times the factor. */
-static hc_status change_damping(model *m, verify_change change, double factor)
-{
-  const double *like = change == CHANGE_DAMPING_OF_M ? m->mass : m->stiffness;
-  const double stiff = trace(m->n, m->stiffness), share = trace(m->n, m->damping) / trace(m->n, like),
-               omega = change == CHANGE_HYSTERETIC ? sqrt(stiff / trace(m->n, m->mass)) : 1;
-  if (!verify_change_of_kind(change)) return HC_OK;
-  if (m->n == 1 && change != CHANGE_HYSTERETIC) return HC_BAD_INPUT;
-  if (change == CHANGE_DAMPING_MODAL) return damp_modes(m, factor);
-  if (!(share > 0) || !isfinite(share * omega)) return HC_BAD_INPUT;
-  const size_t square = (size_t)m->n * (size_t)m->n;
-  double apart = 0, most = 0;
-  for (size_t i = 0; i < square; ++i)
-    apart = fmax(apart, fabs(m->damping[i] - share * like[i])), most = fmax(most, fabs(m->damping[i]));
-  if (change != CHANGE_HYSTERETIC && apart <= 1e-9 * most) return HC_BAD_INPUT; /* it is of this kind */
-  memcpy(m->damping, like, square * sizeof *like);
-  scale(square, factor * share * omega, m->damping);
-  return HC_OK;
-}
-
-/* The number of loads of single degrees of freedom: static ones (fixed), or those of all other harmonics. */
-static int count_loads(const model *m, bool fixed)
-{
-  int count = 0;
-  for (int l = 0; l < m->n_loads; ++l)
-    for (int i = 0; i < m->n && (m->loads[l].harmonic == 0) == fixed; ++i)
-      count += m->loads[l].cosine[i] != 0 || m->loads[l].sine[i] != 0;
-  return count;
-}
-
-static void move_load(int n, int to, double *load)
-{
-  double sum = 0;
-  for (int i = 0; i < n; ++i) sum += load[i], load[i] = 0;
-  load[to] = sum;
-}
-
-/* Degrees of freedom i and k exchanged in the matrices, or in the contacts. */
-static void change_numbering(model *m, verify_change change, int i, int k)
-{
-  if (i >= k) return;
-  if (change == CHANGE_MATRICES_EXCHANGED)
-    exchange(m->n, i, k, m->mass), exchange(m->n, i, k, m->damping), exchange(m->n, i, k, m->stiffness);
-  for (int j = 0; j < m->n_contacts && change == CHANGE_CONTACT_DOFS_EXCHANGED; ++j) {
-    swap(&m->contacts[j].tangent[i], &m->contacts[j].tangent[k]);
-    swap(&m->contacts[j].normal[i], &m->contacts[j].normal[k]);
-  }
-}
-
-/* ---- constant forces ---- */
-
-/* d := A^-1 d; A[n][n] becomes its factors. HC_BAD_INPUT: nothing holds the structure. */
-static hc_status solve(int n, double *A, double *d)
-{
-  if (n == 1 && !(*A > 0)) return HC_BAD_INPUT;
-  int *pivot = malloc((size_t)n * sizeof *pivot);
-  if (!pivot) return HC_NO_MEMORY;
-  const bool factored = dense_factor(n, A, pivot) == HC_OK;
-  if (factored) dense_solve(n, A, pivot, 1, d);
-  free(pivot);
-  return factored ? HC_OK : HC_BAD_INPUT;
-}
-
-/* The displacement by a constant force[n], with mean_factor times the contacts' force in the balance; the gaps follow
- * it, offset[r] is what response r gets of it. HC_BAD_INPUT if that opens a contact under preload. */
-static hc_status displace(model *m, double *force, double mean_factor, bool all_linear, double *offset)
-{
-  const int n = m->n;
-  double *K = malloc((size_t)n * (size_t)n * sizeof *K);
-  if (!K) return HC_NO_MEMORY;
-  memcpy(K, m->stiffness, (size_t)n * (size_t)n * sizeof *K);
-  for (int j = 0; j < m->n_contacts; ++j) {
-    const model_contact *c = &m->contacts[j];
-    if (all_linear || c->law.gap > 0) add_outer(n, mean_factor * c->law.kn, c->normal, c->normal, K);
-  }
-  hc_status st = solve(n, K, force);
-  free(K);
-  if (st != HC_OK) return st;
-  for (int r = 0; r < m->n_responses; ++r) offset[r] = dot_product(n, m->responses + (size_t)r * (size_t)n, force);
-  /* The contacts' gaps follow the displacement d. HC_BAD_INPUT if that opens a contact under preload. */
-  for (int j = 0; j < m->n_contacts; ++j) {
-    model_contact *c = &m->contacts[j];
-    const double before = c->law.gap;
-    if (is_zero(m->n, c->normal)) continue;
-    if (contact_never_opens(&c->law) && dot_product(n, c->normal, force) != 0) return HC_BAD_INPUT;
-    c->law.gap += dot_product(m->n, c->normal, force);
-    if (!all_linear && (c->law.gap > 0) != (before > 0)) return HC_BAD_INPUT;
-  }
-  return HC_OK;
-}
-
-/* p[n] = factor sum_j n_j kn_j gap_j of the contacts under preload, or of those with a clearance. */
-static void static_force(const model *m, bool preloaded, double factor, double *p)
-{
-  memset(p, 0, (size_t)m->n * sizeof *p);
-  for (int j = 0; j < m->n_contacts; ++j) {
-    const model_contact *c = &m->contacts[j];
-    for (int i = 0; i < m->n && (c->law.gap > 0) == preloaded; ++i) p[i] += c->normal[i] * c->law.kn * c->law.gap;
-  }
-  scale((size_t)m->n, factor, p);
-}
-
-/* ---- more contacts ---- */
-
-/* Each contact and a second one. Without separation that is on the other side, and pulls where the first would be
- * separated: max(kn g, 0) - max(-kn g, 0) = kn g. Of a constant limit it is T with N0; N is left to the first. */
-static hc_status double_contacts(const model *m, verify_change change, bool keep_mean, double *p, model **out,
-                                 double *offset)
-{
-  const int n = m->n_contacts;
-  hc_status st = model_copy_sized(m, 2 * n, m->n_responses, out);
-  if (st != HC_OK) return st;
-  model_contact *contacts = (*out)->contacts;
-  (*out)->n_contacts = n; /* the others follow */
-  const bool linear = change == CHANGE_NO_SEPARATION || change == CHANGE_NO_SEPARATION_PULLS;
-  static_force(*out, false, -1, p);
-  if (linear && keep_mean) st = displace(*out, p, 1, true, offset);
-  for (int j = 0; j < n; ++j) {
-    model_contact *c = &contacts[j], *added = &contacts[n + j];
-    /* Its normal force is constant as it is, or there is none: the other is nothing. */
-    if (c->law.load > 0 || contact_never_opens(&c->law)) continue;
-    added->law = c->law;
-    added->pair = c->pair, added->circle = c->circle;
-    for (int i = 0; i < m->n; ++i) added->tangent[i] = c->tangent[i], added->normal[i] = linear ? -c->normal[i] : 0;
-    if (linear) added->law.gap = -c->law.gap;
-    if (linear && change != CHANGE_NO_SEPARATION_PULLS) added->law.kt = added->law.mu = 0;
-    if (!linear) c->law.kt = c->law.mu = 0;
-    if (change == CHANGE_CONSTANT_LIMIT_LINEAR) add_outer(m->n, c->law.kn, c->normal, c->normal, (*out)->stiffness);
-    if (change == CHANGE_CONSTANT_LIMIT_LINEAR || change == CHANGE_CONSTANT_N) c->law.kn = 0;
-  }
-  (*out)->n_contacts = 2 * n;
-  return st;
-}
-
-/* ---- all of them ---- */
-
-static bool doubles(verify_change c) { return c >= CHANGE_NO_SEPARATION && c <= CHANGE_CONSTANT_LIMIT_LINEAR; }
+/* ---- which models are the same ---- */
 
 static bool same_numbers(size_t n, const double *a, const double *b)
 {
@@ -405,94 +106,494 @@ static bool same_model(const model *a, const model *b)
   return same;
 }
 
-static bool any_preload(const model *m)
+/* ---- the matrices ---- */
+
+static hc_status scale_matrix(const changing *c, double *A)
 {
-  bool any = false;
-  for (int j = 0; j < m->n_contacts; ++j) any |= m->contacts[j].law.gap > 0;
-  return any;
+  scale_all((size_t)c->own->n * (size_t)c->own->n, c->how.factor, A);
+  return HC_OK;
 }
 
-/* p[n]: room for a constant force. */
-static hc_status change_copy(const model *m, const verify_changed *how, bool keep_mean, double *p, model *own,
-                             double *offset, hbm_mistakes *mistakes)
+static hc_status scale_mass(changing *c) { return scale_matrix(c, c->own->mass); }
+static hc_status scale_damping(changing *c) { return scale_matrix(c, c->own->damping); }
+static hc_status scale_stiffness(changing *c) { return scale_matrix(c, c->own->stiffness); }
+static hc_status transpose_damping(changing *c) { return transpose(c->own->n, c->own->damping), HC_OK; }
+static hc_status transpose_stiffness(changing *c) { return transpose(c->own->n, c->own->stiffness), HC_OK; }
+
+/* The sums of M's rows on its diagonal. HC_BAD_INPUT: one of them is no mass. */
+static hc_status lump_mass(changing *c)
 {
-  const verify_change c = how->change;
-  const int which = how->which - 1;
-  change_matrices(own, c, how->factor);
-  const hc_status damped = change_damping(own, c, how->factor);
-  if (damped != HC_OK) return damped;
-  mistakes->hysteretic = c == CHANGE_HYSTERETIC;
-  if (c == CHANGE_LUMPED && lump(own->n, own->mass) != HC_OK) return HC_BAD_INPUT;
-  if (c == CHANGE_CONTACTS_EXCHANGED && which / VERIFY_MOST_CONTACTS < which % VERIFY_MOST_CONTACTS &&
-      which % VERIFY_MOST_CONTACTS < model_whole_contacts(m))
-    exchange_contacts(own, which / VERIFY_MOST_CONTACTS, which % VERIFY_MOST_CONTACTS);
-  const double one_load = c == CHANGE_LOAD_SIGN ? -1 : how->factor;
-  const size_t n = (size_t)own->n;
-  for (int l = 0; l < own->n_loads; ++l) {
-    model_load *load = &own->loads[l];
-    const bool fixed = load->harmonic == 0;
-    if (c == CHANGE_FORCE && !fixed) scale(n, how->factor, load->cosine), scale(n, how->factor, load->sine);
-    if (c == CHANGE_STATIC_LOAD && fixed) scale(n, how->factor, load->cosine);
-    if (c == CHANGE_PHASE_SIGN) scale(n, -1, load->sine);
-    if (verify_changes[c].part == PART_LOAD && which >= 0 && which / m->n == load->harmonic &&
-        count_loads(m, fixed) > 1)
-      load->cosine[which % m->n] *= one_load, load->sine[which % m->n] *= one_load;
-    if (c == CHANGE_LOAD_DOF && which >= 0 && !fixed)
-      move_load(own->n, which, load->cosine), move_load(own->n, which, load->sine);
+  const int n = c->own->n;
+  double *M = c->own->mass;
+  for (int i = 0; i < n; ++i) {
+    double sum = 0;
+    for (int k = 0; k < n; ++k) sum += M[i + n * k], M[i + n * k] = 0;
+    if (!(sum > 0)) return HC_BAD_INPUT;
+    M[i + n * i] = sum;
   }
-  if (verify_changes[c].part == PART_PAIR && which >= 0) change_numbering(own, c, which / m->n, which % m->n);
-  const bool of_power = verify_changes[c].part == PART_POWER;
-  bool there = false; /* of a law's own number: even where its factor is 1 */
-  for (int j = 0, whole = -1; j < own->n_contacts; ++j) {
-    model_contact *one = &own->contacts[j];
-    whole += !contact_goes_on(one->pair);
-    const bool meant = which < 0 || which == whole;
-    if (meant) change_contact(m->n, one, c, how->factor);
-    if (meant && (c == CHANGE_POWER_UP || c == CHANGE_POWER_DOWN)) change_powers(own, one, c == CHANGE_POWER_UP);
-    for (int i = 0; i < CONTACT_POWERS && of_power; ++i)
-      if (one->law.power[i] != 0 && (which < 0 || which == whole * CONTACT_POWERS + i))
-        one->law.power[i] *= c == CHANGE_COEFFICIENT ? how->factor : -1, there = true;
-    there |= meant && one->law.epsilon > 0;
-    const bool rubs = j < 32 && contact_has_friction(&one->law);
-    if (c == CHANGE_FRICTION_SIGN && rubs && meant) mistakes->turned |= 1U << j;
-    if (c == CHANGE_FRICTION_SIGN && one->law.smooth != CONTACT_KINKED && meant) one->law.mu = -one->law.mu;
-    if (c == CHANGE_SLIDER_MEAN && rubs) mistakes->mean = HBM_FRICTION_MEAN_OF_U;
-    if (c == CHANGE_FRICTION_MEAN && rubs) mistakes->mean = HBM_FRICTION_NO_MEAN;
+  return HC_OK;
+}
+
+static double trace_of(int n, const double *A)
+{
+  double sum = 0;
+  for (int i = 0; i < n; ++i) sum += A[(size_t)i * (size_t)(n + 1)];
+  return sum;
+}
+
+/* C of the same damping ratio in every mode, the factor times the mean of theirs: M Phi diag(2 zeta omega) Phi^T M. */
+static hc_status modal(changing *c)
+{
+  model *m = c->own;
+  const double factor = c->how.factor;
+  const int n = m->n;
+  const size_t square = (size_t)n * (size_t)n;
+  double *phi = malloc((4 * square + (size_t)n) * sizeof *phi);
+  if (!phi) return HC_NO_MEMORY;
+  double *P = phi + square, *room = P + square, *lambda = room + 2 * square, ratio = 0;
+  hc_status st = dense_modes(n, m->stiffness, m->mass, lambda, phi);
+  if (st == HC_OK) dense_congruence(n, n, phi, m->damping, room, P);
+  for (int k = 0; k < n && st == HC_OK; ++k) {
+    const double w = sqrt(fmax(lambda[k], 0));
+    if (w > 0) ratio += factor * P[(size_t)k * (size_t)(n + 1)] / (2 * w * n);
   }
-  if (c == CHANGE_STUCK && same_numbers(n * n, m->stiffness, own->stiffness)) return HC_BAD_INPUT; /* no contact */
-  if ((of_power || c == CHANGE_EPSILON) && !there) return HC_BAD_INPUT;
-  if (c >= CHANGE_FRICTION_SIGN && c <= CHANGE_FRICTION_MEAN && same_model(m, own))
-    return mistakes->turned || (m->n > 1 && mistakes->mean && keep_mean) ? HC_OK : HC_BAD_INPUT;
-  static_force(m, true, 1, p);
-  const bool preload = !is_zero(m->n, p);
-  if (c == CHANGE_MEAN || c == CHANGE_MEAN_OF_N) {
-    if (!keep_mean || m->n_contacts == 0) return HC_BAD_INPUT;
-    mistakes->mean_error = how->factor - 1;
-    if (c == CHANGE_MEAN) return HC_OK;
-    scale((size_t)m->n, -(how->factor - 1), p);
-    return preload ? displace(own, p, how->factor, false, offset) : HC_BAD_INPUT;
+  if (st == HC_OK) dense_multiply(n, n, n, m->mass, phi, P);
+  for (int k = 0; k < n && st == HC_OK; ++k)
+    scale_all((size_t)n, sqrt(2 * ratio * sqrt(fmax(lambda[k], 0))), P + k * n);
+  if (st == HC_OK) dense_transpose(n, n, P, room), dense_multiply(n, n, n, P, room, m->damping);
+  free(phi);
+  return st == HC_NO_MEMORY ? st : st == HC_OK && ratio > 0 ? HC_OK : HC_BAD_INPUT;
+}
+
+/* Damping like another matrix, of the same trace times the factor, and hysteretic times omega. HC_BAD_INPUT: it is like
+ * that already. */
+static hc_status damp_like(changing *c, const double *like, double omega)
+{
+  model *m = c->own;
+  const double share = trace_of(m->n, m->damping) / trace_of(m->n, like);
+  if (!(share > 0) || !isfinite(share * omega)) return HC_BAD_INPUT;
+  const size_t square = (size_t)m->n * (size_t)m->n;
+  double apart = 0, most = 0;
+  for (size_t i = 0; i < square; ++i)
+    apart = fmax(apart, fabs(m->damping[i] - share * like[i])), most = fmax(most, fabs(m->damping[i]));
+  if (!c->mistakes->hysteretic && apart <= 1e-9 * most) return HC_BAD_INPUT;
+  memcpy(m->damping, like, square * sizeof *like);
+  scale_all(square, c->how.factor * share * omega, m->damping);
+  return HC_OK;
+}
+
+static hc_status like_mass(changing *c) { return damp_like(c, c->own->mass, 1); }
+static hc_status like_stiffness(changing *c) { return damp_like(c, c->own->stiffness, 1); }
+
+static hc_status hysteretic(changing *c)
+{
+  const model *m = c->own;
+  c->mistakes->hysteretic = true;
+  return damp_like(c, m->stiffness, sqrt(trace_of(m->n, m->stiffness) / trace_of(m->n, m->mass)));
+}
+
+/* Degrees of freedom i < k exchanged in the matrices. */
+static hc_status swap_matrices(changing *c)
+{
+  model *m = c->own;
+  const int i = c->which / m->n, k = c->which % m->n;
+  if (c->which < 0 || i >= k) return HC_BAD_INPUT;
+  exchange_dofs(m->n, i, k, m->mass), exchange_dofs(m->n, i, k, m->damping), exchange_dofs(m->n, i, k, m->stiffness);
+  return HC_OK;
+}
+
+/* And in the contacts. */
+static hc_status swap_dofs(changing *c)
+{
+  const int i = c->which / c->own->n, k = c->which % c->own->n;
+  if (c->which < 0 || i >= k) return HC_BAD_INPUT;
+  for (int j = 0; j < c->own->n_contacts; ++j) {
+    swap(&c->own->contacts[j].tangent[i], &c->own->contacts[j].tangent[k]);
+    swap(&c->own->contacts[j].normal[i], &c->own->contacts[j].normal[k]);
   }
-  if (c == CHANGE_PRELOAD_ADDED && (!keep_mean || !preload)) return HC_BAD_INPUT;
-  scale((size_t)m->n, -1, p);
-  if (c == CHANGE_PRELOAD_ADDED) return displace(own, p, 1, false, offset);
-  /* A fit passes through it. */
-  const double none = verify_changes[c].scan == SCAN_TURN ? 0 : 1;
-  return (verify_changes[c].scan && how->factor == none) || !same_model(m, own) ? HC_OK : HC_BAD_INPUT;
+  return HC_OK;
+}
+
+/* ---- the loads ---- */
+
+static void scale_load(const changing *c, double factor, model_load *load)
+{
+  scale_all((size_t)c->own->n, factor, load->cosine), scale_all((size_t)c->own->n, factor, load->sine);
+}
+
+static void scale_force(changing *c, model_load *load)
+{
+  if (load->harmonic > 0) scale_load(c, c->how.factor, load);
+}
+
+static void scale_static_load(changing *c, model_load *load)
+{
+  if (load->harmonic == 0) scale_load(c, c->how.factor, load);
+}
+
+static void turn_phase(changing *c, model_load *load) { scale_all((size_t)c->own->n, -1, load->sine); }
+
+/* The number of loads of single degrees of freedom: static ones (fixed), or those of all other harmonics. */
+static int count_single_loads(const model *m, bool fixed)
+{
+  int count = 0;
+  for (int l = 0; l < m->n_loads; ++l)
+    for (int i = 0; i < m->n && (m->loads[l].harmonic == 0) == fixed; ++i)
+      count += m->loads[l].cosine[i] != 0 || m->loads[l].sine[i] != 0;
+  return count;
+}
+
+static void scale_one_load(changing *c, model_load *load)
+{
+  const int n = c->of->n, i = c->which % n;
+  if (c->which < 0 || c->which / n != load->harmonic || count_single_loads(c->of, load->harmonic == 0) <= 1) return;
+  load->cosine[i] *= c->how.factor, load->sine[i] *= c->how.factor;
+}
+
+/* All of it to one degree of freedom. */
+static void gather_load(int n, int to, double *load)
+{
+  double sum = 0;
+  for (int i = 0; i < n; ++i) sum += load[i], load[i] = 0;
+  load[to] = sum;
+}
+
+static void move_load(changing *c, model_load *load)
+{
+  if (c->which < 0 || load->harmonic == 0) return;
+  gather_load(c->own->n, c->which, load->cosine), gather_load(c->own->n, c->which, load->sine);
+}
+
+/* ---- each contact that is meant ---- */
+
+static void scale_kt(changing *c, model_contact *k) { k->law.kt *= c->how.factor; }
+static void scale_kn(changing *c, model_contact *k) { k->law.kn *= c->how.factor; }
+static void scale_mu(changing *c, model_contact *k) { k->law.mu *= c->how.factor; }
+static void scale_gap(changing *c, model_contact *k) { k->law.gap *= c->how.factor; }
+
+static void scale_law(changing *c, model_contact *k)
+{
+  const double factor = c->how.factor;
+  k->law.kt *= factor, k->law.kn *= factor, k->law.load *= factor;
+  scale_all(CONTACT_POWERS, factor, k->law.power);
+}
+
+static void scale_epsilon(changing *c, model_contact *k)
+{
+  c->there |= k->law.epsilon > 0;
+  k->law.epsilon *= c->how.factor;
+}
+
+static void scale_power(changing *c, model_contact *k)
+{
+  for (int i = 0; i < CONTACT_POWERS; ++i)
+    if (k->law.power[i] != 0 && (c->which < 0 || c->which == c->whole * CONTACT_POWERS + i))
+      k->law.power[i] *= c->how.factor, c->there = true;
+}
+
+/* A polynomial with powers one higher. */
+static void raise_powers(changing *c, model_contact *k)
+{
+  double *const power = k->law.power;
+  (void)c;
+  if (power[CONTACT_POWERS - 1] != 0) return;
+  memmove(power + 1, power, (CONTACT_POWERS - 1) * sizeof *power);
+  power[0] = 0;
+}
+
+/* One lower: the linear spring goes into K. */
+static void lower_powers(changing *c, model_contact *k)
+{
+  double *const power = k->law.power;
+  add_outer(c->own->n, power[0], k->normal, k->normal, c->own->stiffness);
+  memmove(power, power + 1, (CONTACT_POWERS - 1) * sizeof *power);
+  power[CONTACT_POWERS - 1] = 0;
+}
+
+/* Two contacts of a pair have half of the normal stiffness each (model.h). */
+static void swap_springs(changing *c, model_contact *k)
+{
+  const double halves = k->pair == CONTACT_ALONE || k->pair == CONTACT_MORE ? 1 : 2, kt = k->law.kt;
+  (void)c;
+  if (k->law.load == 0) k->law.kt = halves * k->law.kn, k->law.kn = kt / halves;
+}
+
+/* Tangent and normal turned by an angle in the plane that they span. */
+static void turn_both(changing *c, model_contact *k)
+{
+  const int n = c->own->n;
+  double along, across;
+  if (k->pair != CONTACT_ALONE || is_zero(n, k->tangent) || is_zero(n, k->normal)) return;
+  model_direction(c->how.factor, &along, &across);
+  for (int i = 0; i < n; ++i) {
+    const double t = k->tangent[i], v = k->normal[i];
+    k->tangent[i] = along * t - across * v;
+    k->normal[i] = along * v + across * t;
+  }
+}
+
+static void complement(changing *c, model_contact *k)
+{
+  (void)c;
+  if (!contact_never_opens(&k->law)) swap(k->tangent, k->normal);
+}
+
+static const double degree = TWO_PI / 360;
+static void take_angle(model_contact *k, double unit)
+{
+  if (!contact_never_opens(&k->law)) model_direction(atan2(*k->normal, *k->tangent) / unit, k->tangent, k->normal);
+}
+
+static void as_radians(changing *c, model_contact *k) { (void)c, take_angle(k, degree * degree); }
+static void as_degrees(changing *c, model_contact *k) { (void)c, take_angle(k, 1); }
+
+/* One side moves the other way: the last entry of a direction that has several. */
+static void turn_last(int n, double *direction)
+{
+  int entries = 0, last = 0;
+  for (int i = 0; i < n; ++i)
+    if (direction[i] != 0) ++entries, last = i;
+  if (entries > 1) direction[last] = -direction[last];
+}
+
+static void turn_one_side(changing *c, model_contact *k)
+{
+  turn_last(c->own->n, k->tangent), turn_last(c->own->n, k->normal);
+}
+
+/* Of two tangents: each limited by itself or both together, or without friction along one of them. */
+static void change_pair(model_contact *k, bool circle, contact_pair without)
+{
+  if (k->pair == CONTACT_ALONE || k->pair == CONTACT_MORE) return;
+  k->circle = circle;
+  if (k->pair == without) k->law.mu = 0;
+}
+
+static void limit_squarely(changing *c, model_contact *k) { (void)c, change_pair(k, false, CONTACT_ALONE); }
+static void limit_by_circle(changing *c, model_contact *k) { (void)c, change_pair(k, true, CONTACT_ALONE); }
+static void no_tangent_2(changing *c, model_contact *k) { (void)c, change_pair(k, false, CONTACT_SECOND); }
+static void no_tangent_1(changing *c, model_contact *k) { (void)c, change_pair(k, false, CONTACT_FIRST); }
+
+static bool rubs(const changing *c, const model_contact *k) { return c->contact < 32 && contact_has_friction(&k->law); }
+
+static void turn_friction(changing *c, model_contact *k)
+{
+  if (rubs(c, k)) c->mistakes->turned |= 1U << c->contact, c->differs = true;
+  if (k->law.smooth != CONTACT_KINKED) k->law.mu = -k->law.mu;
+}
+
+static void change_mean(changing *c, const model_contact *k, verify_friction_mean mean)
+{
+  if (rubs(c, k)) c->mistakes->mean = mean, c->differs = true;
+}
+
+static void mean_of_u(changing *c, model_contact *k) { change_mean(c, k, FRICTION_MEAN_OF_U); }
+static void drop_mean(changing *c, model_contact *k) { change_mean(c, k, FRICTION_NO_MEAN); }
+
+/* ---- all contacts ---- */
+
+static hc_status no_contact(changing *c) { return c->own->n_contacts = 0, HC_OK; }
+
+/* Stuck for good. HC_BAD_INPUT: they have no stiffness. */
+static hc_status stick_contacts(changing *c)
+{
+  model *m = c->own;
+  for (int j = 0; j < m->n_contacts; ++j) {
+    const model_contact *k = &m->contacts[j];
+    add_outer(m->n, k->law.kt, k->tangent, k->tangent, m->stiffness);
+    add_outer(m->n, k->law.kn, k->normal, k->normal, m->stiffness);
+  }
+  m->n_contacts = 0;
+  return same_numbers((size_t)m->n * (size_t)m->n, c->of->stiffness, m->stiffness) ? HC_BAD_INPUT : HC_OK;
+}
+
+/* The first of the *parts that whole contact number `which` is in the model. */
+static model_contact *whole_contact(const model *m, int which, int *parts)
+{
+  int first = 0;
+  for (int whole = -1; first < m->n_contacts; ++first)
+    if ((whole += !contact_goes_on(m->contacts[first].pair)) == which) break;
+  for (*parts = 1; first + *parts < m->n_contacts && contact_goes_on(m->contacts[first + *parts].pair);) ++*parts;
+  return &m->contacts[first];
+}
+
+/* kt of two whole contacts, and kn where both have a normal spring; of a pair each of the two has half of kn. Not of
+ * smooth ones, nor of those that are several springs across. */
+static hc_status swap_contacts(changing *c)
+{
+  const int i = c->which / VERIFY_MOST_CONTACTS, k = c->which % VERIFY_MOST_CONTACTS;
+  if (c->which < 0 || i >= k || k >= model_whole_contacts(c->of)) return HC_BAD_INPUT;
+  int n[2];
+  model_contact *both[2] = {whole_contact(c->own, i, &n[0]), whole_contact(c->own, k, &n[1])};
+  for (int a = 0; a < 2; ++a)
+    if (both[a]->law.smooth != CONTACT_KINKED || (n[a] > 1 && both[a][1].pair == CONTACT_MORE)) return HC_BAD_INPUT;
+  const contact law[2] = {both[0]->law, both[1]->law};
+  const bool normal = law[0].load == 0 && law[1].load == 0, tangential = law[0].mu > 0 && law[1].mu > 0;
+  for (int a = 0; a < 2; ++a)
+    for (int j = 0; j < n[a]; ++j) {
+      if (tangential) both[a][j].law.kt = law[!a].kt;
+      if (normal) both[a][j].law.kn = law[!a].kn * n[!a] / n[a];
+    }
+  return HC_OK;
+}
+
+/* d := A^-1 d; A[n][n] becomes its factors. HC_BAD_INPUT: nothing holds the structure. */
+static hc_status solve_static_force(int n, double *A, double *d)
+{
+  if (n == 1 && !(*A > 0)) return HC_BAD_INPUT;
+  int *pivot = malloc((size_t)n * sizeof *pivot);
+  if (!pivot) return HC_NO_MEMORY;
+  const bool factored = dense_factor(n, A, pivot) == HC_OK;
+  if (factored) dense_solve(n, A, pivot, 1, d);
+  free(pivot);
+  return factored ? HC_OK : HC_BAD_INPUT;
+}
+
+/* The displacement by a constant force[n], with mean_factor times the contacts' force in the balance; the gaps follow
+ * it, offset[r] is what response r gets of it. HC_BAD_INPUT if that opens a contact under preload. */
+static hc_status displace(model *m, double *force, double mean_factor, bool all_linear, double *offset)
+{
+  const int n = m->n;
+  double *K = malloc((size_t)n * (size_t)n * sizeof *K);
+  if (!K) return HC_NO_MEMORY;
+  memcpy(K, m->stiffness, (size_t)n * (size_t)n * sizeof *K);
+  for (int j = 0; j < m->n_contacts; ++j) {
+    const model_contact *c = &m->contacts[j];
+    if (all_linear || c->law.gap > 0) add_outer(n, mean_factor * c->law.kn, c->normal, c->normal, K);
+  }
+  hc_status st = solve_static_force(n, K, force);
+  free(K);
+  if (st != HC_OK) return st;
+  for (int r = 0; r < m->n_responses; ++r) offset[r] = dot_product(n, m->responses + (size_t)r * (size_t)n, force);
+  /* The contacts' gaps follow the displacement d. HC_BAD_INPUT if that opens a contact under preload. */
+  for (int j = 0; j < m->n_contacts; ++j) {
+    model_contact *c = &m->contacts[j];
+    const double before = c->law.gap;
+    if (is_zero(m->n, c->normal)) continue;
+    if (contact_never_opens(&c->law) && dot_product(n, c->normal, force) != 0) return HC_BAD_INPUT;
+    c->law.gap += dot_product(m->n, c->normal, force);
+    if (!all_linear && (c->law.gap > 0) != (before > 0)) return HC_BAD_INPUT;
+  }
+  return HC_OK;
+}
+
+/* p[n] = factor sum_j n_j kn_j gap_j of the contacts under preload, or of those with a clearance. */
+static void static_force(const model *m, bool preloaded, double factor, double *p)
+{
+  memset(p, 0, (size_t)m->n * sizeof *p);
+  for (int j = 0; j < m->n_contacts; ++j) {
+    const model_contact *c = &m->contacts[j];
+    for (int i = 0; i < m->n && (c->law.gap > 0) == preloaded; ++i) p[i] += c->normal[i] * c->law.kn * c->law.gap;
+  }
+  scale_all((size_t)m->n, factor, p);
+}
+
+static hc_status mean(changing *c)
+{
+  c->mistakes->mean_error = c->how.factor - 1;
+  c->differs = true;
+  return HC_OK;
+}
+
+static hc_status mean_of_n(changing *c)
+{
+  static_force(c->of, true, 1, c->p);
+  if (is_zero(c->of->n, c->p)) return HC_BAD_INPUT;
+  scale_all((size_t)c->of->n, -(c->how.factor - 1), c->p);
+  return mean(c), displace(c->own, c->p, c->how.factor, false, c->offset);
+}
+
+static hc_status add_preload(changing *c)
+{
+  static_force(c->of, true, -1, c->p);
+  c->differs = true;
+  return is_zero(c->of->n, c->p) ? HC_BAD_INPUT : displace(c->own, c->p, 1, false, c->offset);
+}
+
+/* Each contact and a second one. Without separation that is on the other side, and pulls where the first would be
+ * separated: max(kn g, 0) - max(-kn g, 0) = kn g. Of a constant limit it is T with N0; N is left to the first. */
+static hc_status doubled(changing *c)
+{
+  model *m = c->own;
+  const verify_change change = c->how.change;
+  const int n = m->n_contacts; /* there is room for twice as many */
+  const bool linear = change == CHANGE_NO_SEPARATION || change == CHANGE_NO_SEPARATION_PULLS;
+  static_force(m, false, -1, c->p);
+  const hc_status st = linear && c->keep_mean ? displace(m, c->p, 1, true, c->offset) : HC_OK;
+  for (int j = 0; j < n; ++j) {
+    model_contact *k = &m->contacts[j], *added = &m->contacts[n + j];
+    /* Its normal force is constant as it is, or there is none: the other is nothing. */
+    if (k->law.load > 0 || contact_never_opens(&k->law)) continue;
+    added->law = k->law;
+    added->pair = k->pair, added->circle = k->circle;
+    for (int i = 0; i < m->n; ++i) added->tangent[i] = k->tangent[i], added->normal[i] = linear ? -k->normal[i] : 0;
+    if (linear) added->law.gap = -k->law.gap;
+    if (linear && change != CHANGE_NO_SEPARATION_PULLS) added->law.kt = added->law.mu = 0;
+    if (!linear) k->law.kt = k->law.mu = 0;
+    if (change == CHANGE_CONSTANT_LIMIT_LINEAR) add_outer(m->n, k->law.kn, k->normal, k->normal, m->stiffness);
+    if (change == CHANGE_CONSTANT_LIMIT_LINEAR || change == CHANGE_CONSTANT_N) k->law.kn = 0;
+  }
+  m->n_contacts = 2 * n;
+  return st;
+}
+
+/* ---- the table ---- */
+
+const verify_change_kind verify_changes[] = {
+#define VERIFY_CHANGE_ROW(code, cause, words, scan, part, in, ...)                                                     \
+  {CAUSE_##cause, words, SCAN_##scan, PART_##part, IN_##in, __VA_ARGS__},
+    VERIFY_CHANGE_LIST(VERIFY_CHANGE_ROW)
+#undef VERIFY_CHANGE_ROW
+};
+_Static_assert(CHANGE_SLIDER_ON_SAMPLE - VERIFY_MODEL_CHANGES == HBM_RESTART_SAMPLE, "in the order of hbm_restart");
+
+bool verify_change_applies(const model *m, verify_change c, bool keep_mean)
+{
+  unsigned in = m->n > 1 ? IN_STRUCTURE : m->n_contacts > 0 ? IN_ANGLE : 0;
+  if (keep_mean) in |= IN_MEAN;
+  if (m->n_contacts > 0) in |= IN_CONTACT;
+  if (model_whole_contacts(m) < m->n_contacts) in |= IN_PARTS;
+  for (int j = 0; j < m->n_contacts; ++j)
+    if (m->contacts[j].law.gap > 0) in |= IN_PRELOAD;
+  return (verify_changes[c].in & ~in) == 0;
+}
+
+static hc_status make_change(changing *c)
+{
+  const verify_change_kind *kind = &verify_changes[c->how.change];
+  model *own = c->own;
+  if (!kind->scan) c->how.factor = kind->times;
+  const hc_status st = kind->model ? kind->model(c) : HC_OK;
+  if (st != HC_OK) return st;
+  for (int l = 0; l < own->n_loads && kind->load; ++l) kind->load(c, &own->loads[l]);
+  for (c->whole = -1; c->contact < own->n_contacts && kind->contact; ++c->contact) {
+    c->whole += !contact_goes_on(own->contacts[c->contact].pair);
+    if (c->which < 0 || c->which == c->whole || kind->part == PART_POWER) kind->contact(c, &own->contacts[c->contact]);
+  }
+  if ((kind->part == PART_POWER || c->how.change == CHANGE_EPSILON) && !c->there) return HC_BAD_INPUT;
+  /* A fit passes through the factor that changes nothing. */
+  c->differs |= kind->scan && c->how.factor == (kind->scan == SCAN_TURN ? 0 : 1);
+  return c->differs || !same_model(c->of, own) ? HC_OK : HC_BAD_INPUT;
 }
 
 hc_status verify_changed_model(const model *m, const verify_changed *how, bool keep_mean, model **out, double *offset,
-                               hbm_mistakes *mistakes)
+                               verify_mistakes *mistakes)
 {
-  const verify_change c = how->change;
-  const bool constant = c >= CHANGE_CONSTANT_N && c <= CHANGE_CONSTANT_LIMIT_LINEAR;
   *out = NULL;
   memset(offset, 0, (size_t)m->n_responses * sizeof *offset);
-  if (doubles(c) && (m->n_contacts == 0 || (constant && !any_preload(m)))) return HC_BAD_INPUT;
-  double *p = malloc((size_t)m->n * sizeof *p);
-  if (!p) return HC_NO_MEMORY;
-  hc_status st = doubles(c) ? double_contacts(m, c, keep_mean, p, out, offset) : model_copy(m, out);
-  if (st == HC_OK && c != CHANGE_NONE && !doubles(c)) st = change_copy(m, how, keep_mean, p, *out, offset, mistakes);
-  free(p);
+  if (!verify_change_applies(m, how->change, keep_mean)) return HC_BAD_INPUT;
+  changing c = {.of = m, .how = *how, .which = how->which - 1, .keep_mean = keep_mean, .mistakes = mistakes};
+  c.offset = offset;
+  c.p = malloc((size_t)m->n * sizeof *c.p);
+  hc_status st = c.p ? model_copy_sized(m, 2 * m->n_contacts, m->n_responses, out) : HC_NO_MEMORY;
+  if (st == HC_OK) {
+    c.own = *out;
+    c.own->n_contacts = m->n_contacts;
+    if (how->change != CHANGE_NONE) st = make_change(&c);
+  }
+  for (int l = 0; st == HC_OK && mistakes->odd_only && l < c.own->n_loads; ++l)
+    if (c.own->loads[l].harmonic > 0 && c.own->loads[l].harmonic % 2 == 0) scale_load(&c, 0, &c.own->loads[l]);
+  free(c.p);
   if (st == HC_OK) return HC_OK;
   model_free(*out);
   *out = NULL;

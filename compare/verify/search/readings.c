@@ -11,24 +11,20 @@
 #include "numerics/base/number.h"
 #include "numerics/base/thread_clock.h"
 
-static const struct {
-  double factor;
-  verify_causes cause;
-} factors[] = {
-    {1, 0},
-    {2, VERIFY_BIT(CAUSE_TWICE)},
-    {0.5, VERIFY_BIT(CAUSE_HALF)},
-    {0.70710678118654752440, VERIFY_BIT(CAUSE_RMS)},
-    {1e3, VERIFY_BIT(CAUSE_LENGTH)},
-    {1e-3, VERIFY_BIT(CAUSE_LENGTH)},
-    {1e2, VERIFY_BIT(CAUSE_LENGTH)},
-    {1e-2, VERIFY_BIT(CAUSE_LENGTH)},
+const search_factor search_factors[SEARCH_FACTORS] = {
+    {1, 0, false},
+    {2, VERIFY_BIT(CAUSE_TWICE), false},
+    {0.5, VERIFY_BIT(CAUSE_HALF), false},
+    {0.70710678118654752440, VERIFY_BIT(CAUSE_RMS), false},
+    {1e3, VERIFY_BIT(CAUSE_LENGTH), false},
+    {1e-3, VERIFY_BIT(CAUSE_LENGTH), false},
+    {1e2, VERIFY_BIT(CAUSE_LENGTH), false},
+    {1e-2, VERIFY_BIT(CAUSE_LENGTH), false},
+    {1, VERIFY_BIT(CAUSE_DECIBEL), true},
 };
-enum { FACTORS = sizeof factors / sizeof *factors };
 static const double good = 0.01; /* [1] what a cause may leave */
 /* At most so many points that match and that differ, for each look. */
 static const int most_looked_at[SEARCH_LOOKS][2] = {{16, SEARCH_MOST_POINTS - 16}, {3, 10}, {2, 5}};
-_Static_assert(FACTORS + 1 == SEARCH_FACTORS, "and dB");
 
 /* ---- the sample ---- */
 
@@ -39,7 +35,7 @@ typedef struct place {
   bool differs; /* any of them */
 } place;
 
-static int by_omega(const void *a, const void *b)
+static int rows_by_omega(const void *a, const void *b)
 {
   const verify_row *p = *(const verify_row *const *)a, *q = *(const verify_row *const *)b;
   if (p->omega != q->omega) return p->omega < q->omega ? -1 : 1;
@@ -52,7 +48,7 @@ static bool is_taken(int i, int n, int wanted, int taken)
   return taken < wanted && (long)i * wanted >= (long)taken * n;
 }
 
-static double relative(double a, double b, double least)
+static double relative_difference(double a, double b, double least)
 {
   double d = fabs(a - b), scale = fmax(fmax(fabs(a), fabs(b)), least);
   return d == 0 ? 0 : d <= scale ? d / scale : 1; /* NaN is as far as can be */
@@ -72,7 +68,7 @@ static void put_place(const place *from, int n, const verify_judged *responses, 
                          : decibel ? verify_quantity_to_column(&other, row->value)
                                    : verify_quantity_from_column(&other, row->value);
     out->differs[r][i] = row && verify_row_differs(row);
-    out->off[r][i] = row && !isnan(row->nearest) ? relative(row->value, row->nearest, row->scale) : NAN;
+    out->off[r][i] = row && !isnan(row->nearest) ? relative_difference(row->value, row->nearest, row->scale) : NAN;
   }
 }
 
@@ -93,7 +89,7 @@ hc_status verify_sample_of(int n, const verify_judged *responses, verify_sample 
   for (int r = 0; r < n && places && sorted; ++r) {
     const verify_report *of = responses[r].report;
     for (int i = 0; i < of->n_rows; ++i) sorted[i] = &of->rows[i];
-    qsort(sorted, (size_t)of->n_rows, sizeof *sorted, by_omega);
+    qsort(sorted, (size_t)of->n_rows, sizeof *sorted, rows_by_omega);
     /* Both ascend: each row goes to the next place of its omega that has none of its response, or to a new one. */
     for (int i = 0, at = 0; i < of->n_rows; ++i) {
       if (sorted[i]->skipped) continue;
@@ -134,7 +130,7 @@ hc_status verify_sample_of(int n, const verify_judged *responses, verify_sample 
 
 /* The distance that a part of them, nine of ten, is within. The median would not do: where the contacts do nothing,
  * points fit any hypothesis about them. */
-static double within(int n, double *d, double part)
+static double within_part(int n, double *d, double part)
 {
   if (n == 0) return 0;
   if (part == 0) {
@@ -149,12 +145,12 @@ static double within(int n, double *d, double part)
 
 /* How far the value is from the nearest solution at omega number i, read as quantity q of response r times the
  * factor. */
-static double nearest(double value, const verify_solutions *s, int i, int r, int q, double factor)
+static double nearest_solution(double value, const verify_solutions *s, int i, int r, int q, double factor)
 {
   double least = 1;
   for (int k = s->first[i]; k < s->first[i + 1]; ++k) {
     const verify_solution *of = &s->of[k * s->n_responses + r];
-    least = fmin(least, relative(value, factor * of->q[q], factor * of->scale[q]));
+    least = fmin(least, relative_difference(value, factor * of->q[q], factor * of->scale[q]));
   }
   return least;
 }
@@ -165,7 +161,8 @@ static bool looked_at(const verify_sample *p, int r, int i)
 }
 
 /* The distance between the sample's response r and quantity q of the solutions. */
-static double distance_of(const verify_sample *p, int r, bool decibel, const verify_solutions *s, int q, double factor)
+static double response_distance(const verify_sample *p, int r, bool decibel, const verify_solutions *s, int q,
+                                double factor)
 {
   int off = 0, on = 0;
   double far[SEARCH_MOST_POINTS], near[SEARCH_MOST_POINTS],
@@ -174,18 +171,18 @@ static double distance_of(const verify_sample *p, int r, bool decibel, const ver
   const double *value = read && decibel ? p->decibel[r] : p->value[r];
   for (int i = 0; i < p->n; ++i) {
     if (!looked_at(p, r, i)) continue;
-    const double least = nearest(value[i], s, i, r, read ? q : 0, read ? factor : 1);
+    const double least = nearest_solution(value[i], s, i, r, read ? q : 0, read ? factor : 1);
     if (p->differs[r][i]) far[off++] = least;
     else near[on++] = least;
     if (!p->differs[r][i] && s->first[i] < s->first[i + 1]) taken = fmax(taken, least);
   }
-  return fmax(fmax(within(off, far, p->part), within(on, near, p->part)), taken > p->left ? taken : 0);
+  return fmax(fmax(within_part(off, far, p->part), within_part(on, near, p->part)), taken > p->left ? taken : 0);
 }
 
-static double distance(const verify_sample *p, bool decibel, const verify_solutions *s, int q, double factor)
+static double largest_distance(const verify_sample *p, const verify_solutions *s, int q, double factor)
 {
   double most = 0;
-  for (int r = 0; r < p->n_responses; ++r) most = fmax(most, distance_of(p, r, decibel, s, q, factor));
+  for (int r = 0; r < p->n_responses; ++r) most = fmax(most, response_distance(p, r, false, s, q, factor));
   return most;
 }
 
@@ -197,7 +194,7 @@ double verify_truth_distance(const verify_sample *p)
     double far[SEARCH_MOST_POINTS];
     for (int i = 0; i < p->n; ++i)
       if (p->differs[r][i] && !isnan(p->off[r][i])) far[n++] = p->off[r][i];
-    most = fmax(most, within(n, far, p->part));
+    most = fmax(most, within_part(n, far, p->part));
   }
   return most;
 }
@@ -207,10 +204,20 @@ void search_distances_of(const verify_sample *p, int response, const verify_solu
   for (int f = 0; f < SEARCH_FACTORS; ++f)
     for (int i = 0; i < VERIFY_READINGS; ++i)
       out[f * VERIFY_READINGS + i] =
-          distance_of(p, response, f == FACTORS, of, i, f == FACTORS ? 1 : factors[f].factor);
+          response_distance(p, response, search_factors[f].decibel, of, i, search_factors[f].factor);
 }
 
-static void rank(verify_hypothesis *h, double floor)
+void search_largest_distances(const verify_sample *p, const verify_solutions *of, search_distances out)
+{
+  search_distances one;
+  for (int k = 0; k < SEARCH_DISTANCES; ++k) out[k] = 0;
+  for (int r = 0; r < p->n_responses; ++r) {
+    search_distances_of(p, r, of, one);
+    for (int k = 0; k < SEARCH_DISTANCES; ++k) out[k] = fmax(out[k], one[k]);
+  }
+}
+
+void search_rank(verify_hypothesis *h, double floor)
 {
   const double of_fit = h->fitted ? 1.01 : 1; /* of equals the one that nothing was fitted of */
   h->score = of_fit * fmax(h->distance, floor) * pow(3, verify_cause_count(h->causes));
@@ -222,11 +229,11 @@ void verify_read_one(const verify_sample *p, const verify_solutions *s, int read
   verify_causes ignored;
   verify_reading(reading, &p->quantity[p->first], &h->quantity, &ignored);
   h->value_factor = factor;
-  h->distance = distance(p, false, s, reading, factor);
-  rank(h, floor);
+  h->distance = largest_distance(p, s, reading, factor);
+  search_rank(h, floor);
 }
 
-double verify_read_plain(const verify_sample *p, const verify_solutions *s) { return distance(p, false, s, 0, 1); }
+double verify_read_plain(const verify_sample *p, const verify_solutions *s) { return largest_distance(p, s, 0, 1); }
 
 double verify_closeness(const verify_sample *p, const verify_solutions *s)
 {
@@ -235,7 +242,7 @@ double verify_closeness(const verify_sample *p, const verify_solutions *s)
   int n = 0;
   for (int r = 0; r < p->n_responses; ++r)
     for (int i = 0; i < p->n; ++i)
-      if (looked_at(p, r, i)) sum += fmin(most, nearest(p->value[r][i], s, i, r, 0, 1)), ++n;
+      if (looked_at(p, r, i)) sum += fmin(most, nearest_solution(p->value[r][i], s, i, r, 0, 1)), ++n;
   return sum / n;
 }
 
@@ -249,10 +256,10 @@ static double apart_of(const verify_sample *p, int r, const verify_solutions *a,
     if (a->first[i] == a->first[i + 1] || b->first[i] == b->first[i + 1]) continue; /* not known */
     double worst = 0;
     for (int k = a->first[i]; k < a->first[i + 1]; ++k)
-      worst = fmax(worst, nearest(a->of[k * a->n_responses + r].q[0], b, i, r, 0, 1));
+      worst = fmax(worst, nearest_solution(a->of[k * a->n_responses + r].q[0], b, i, r, 0, 1));
     far[n++] = worst;
   }
-  return within(n, far, p->part);
+  return within_part(n, far, p->part);
 }
 
 double verify_apart(const verify_sample *p, const verify_solutions *a, const verify_solutions *b)
@@ -384,334 +391,4 @@ void search_judge(verify_report *out)
   }
   if (verify_fits(out) && alone) out->causes = all;
   else if (best->distance < guess_worth * out->truth_distance) out->nearest_guess = all;
-}
-
-/* ---- equations solved, read in every way, and kept by their score ---- */
-
-static const double nearly_all = 0.02; /* [1] of the truth's distance may be left */
-
-double search_omega_factor(int frequency)
-{
-  static const double omega_factors[SEARCH_FREQUENCIES] = {1, TWO_PI, 1 / TWO_PI};
-  return omega_factors[frequency];
-}
-
-bool search_tick(search *s)
-{
-  double part = (double)++s->done / s->expected;
-  if (!s->said && thread_seconds() - s->begun > VERIFY_FIRST_ANSWER) search_say(s);
-  return hc_monitor_tick(s->monitor, 0.5 + 0.5 * (part < 1 ? part : 1));
-}
-
-void search_say(search *s)
-{
-  verify_report *out = s->out;
-  s->said = true;
-  if (!s->effort || !s->effort->say) return;
-  search_judge(out);
-  const verify_causes now = out->causes | out->nearest_guess;
-  if (now != s->said_causes) s->effort->say(s->effort->self, out);
-  s->said_causes = now;
-  out->causes = out->nearest_guess = 0;
-}
-
-verify_equations search_equations(int harmonics, bool keep_mean)
-{
-  return (verify_equations){.keep_mean = keep_mean, .harmonics = harmonics, .factor = 1};
-}
-
-verify_equations search_own(const search *s) { return search_equations(s->own, true); }
-
-/* The best of every set of causes is kept, in the order of their scores. */
-void search_keep(search *s, const verify_hypothesis *h)
-{
-  verify_report *out = s->out;
-  for (int i = 0; i < out->n_hypotheses; ++i) {
-    const verify_hypothesis *o = &out->hypotheses[i];
-    if (o->causes != h->causes) continue;
-    if (o->score <= h->score) return;
-    memmove(out->hypotheses + i, out->hypotheses + i + 1, (size_t)(--out->n_hypotheses - i) * sizeof *o);
-    break;
-  }
-  int at = out->n_hypotheses;
-  while (at > 0 && h->score < out->hypotheses[at - 1].score) --at;
-  if (at == VERIFY_HYPOTHESES) return;
-  if (out->n_hypotheses < VERIFY_HYPOTHESES) ++out->n_hypotheses;
-  memmove(out->hypotheses + at + 1, out->hypotheses + at, (size_t)(out->n_hypotheses - 1 - at) * sizeof *h);
-  out->hypotheses[at] = *h;
-}
-
-/* True if this number of harmonics is a cause: it matters, and in a changed model it is smaller than the case's own. */
-static bool too_few_harmonics(const search *s, const verify_equations *e, int frequency)
-{
-  for (int i = 0; i < s->n_orders; ++i) {
-    const order *o = &s->orders[i];
-    if (o->harmonics != e->harmonics || o->keep_mean != e->keep_mean || !o->matters[frequency]) continue;
-    return e->change == CHANGE_NONE || e->harmonics < s->own;
-  }
-  return false;
-}
-
-/* A mistake about the slider is one whatever the samples: they are a cause, too, of readings that fewer than
- * SEARCH_MOST_SAMPLES bring closer. */
-static verify_causes causes_of_slider(const verify_equations *e)
-{
-  switch (e->restart) {
-  case HBM_RESTART_ZEROED: return VERIFY_BIT(CAUSE_SLIDER_ZEROED);
-  case HBM_RESTART_KEPT: return VERIFY_BIT(CAUSE_SLIDER_KEPT);
-  case HBM_RESTART_ONE_PASS:
-  case HBM_RESTART_ONE_PASS_SAMPLE: return VERIFY_BIT(CAUSE_SINGLE_PASS);
-  case HBM_RESTART_SAMPLE: return VERIFY_BIT(CAUSE_SAMPLES) | VERIFY_BIT(CAUSE_SLIDER);
-  default: return VERIFY_BIT(CAUSE_SAMPLES);
-  }
-}
-
-static verify_causes causes_of(const search *s, const verify_equations *e, int frequency)
-{
-  verify_causes causes = frequency ? VERIFY_BIT(CAUSE_FREQUENCY) : 0;
-  if (e->change != CHANGE_NONE) causes |= VERIFY_BIT(verify_changes[e->change].cause);
-  if (verify_equations_linear(e)) return causes;
-  if (e->odd_only) causes |= VERIFY_BIT(CAUSE_ODD_ONLY);
-  else if (!e->keep_mean) causes |= VERIFY_BIT(CAUSE_NO_STATIC);
-  if (e->samples) causes |= causes_of_slider(e);
-  return causes | (too_few_harmonics(s, e, frequency) ? VERIFY_BIT(CAUSE_HARMONICS) : 0);
-}
-
-int search_order(const search *s, int i)
-{
-  const int orders[SEARCH_ORDERS] = {7, 10, 15, s->out->harmonics, 5, 3};
-  return orders[i];
-}
-
-const double search_factors[SEARCH_USUAL_FACTORS] = {2, 0.5, 10, 0.1, 0};
-
-/* Is the number of the change, if it has one, none that was fitted? */
-static bool usual_number(const verify_equations *e)
-{
-  bool usual = verify_changes[e->change].scan == SCAN_NONE;
-  for (int i = 0; i < SEARCH_USUAL_FACTORS; ++i) usual |= e->factor == search_factors[i];
-  return usual;
-}
-
-static void largest_distances(const verify_sample *p, const verify_solutions *of, search_distances out)
-{
-  search_distances one;
-  for (int k = 0; k < SEARCH_DISTANCES; ++k) out[k] = 0;
-  for (int r = 0; r < p->n_responses; ++r) {
-    search_distances_of(p, r, of, one);
-    for (int k = 0; k < SEARCH_DISTANCES; ++k) out[k] = fmax(out[k], one[k]);
-  }
-}
-
-void search_read(search *s, const verify_equations *e, int frequency, const verify_solutions *of)
-{
-  search_distances d, d_solved;
-  verify_sample solved = s->points;
-  int there = 0, without = 0; /* of the points that differ in the first response that is wrong; of all */
-  for (int i = 0; i < solved.n; ++i) {
-    bool *const looked = &solved.looked_at[solved.look][i];
-    const bool is_there = of->first[i] < of->first[i + 1];
-    without += *looked && !is_there;
-    there += *looked && is_there && solved.differs[solved.first][i];
-    *looked &= is_there;
-  }
-  largest_distances(&s->points, of, d);
-  const bool enough = without > 0 && there >= VERIFY_LEAST_DIFFERING && there > without;
-  if (enough) largest_distances(&solved, of, d_solved);
-  search_read_distances(s, e, frequency, d, enough ? d_solved : NULL);
-}
-
-/* [SEARCH_DISTANCES] of the same equations with nothing wrong but their number of harmonics; NULL: these are they. */
-static const double *plain_distances(const search *s, const verify_equations *e, int frequency)
-{
-  const bool plain = e->change == CHANGE_NONE && !e->odd_only && e->samples == 0;
-  for (int i = 0; i < s->n_orders && !plain; ++i)
-    if (s->orders[i].harmonics == e->harmonics && s->orders[i].keep_mean == e->keep_mean)
-      return s->orders[i].distance[frequency];
-  return NULL;
-}
-
-static bool says_more(const search *s, const double *plain, int k, double distance)
-{
-  return !plain || distance < plain[k] - s->floor;
-}
-
-hc_status search_passed(search *s, const verify_equations *e, int frequency, hc_status st)
-{
-  if (st == HC_INTERRUPTED || st == HC_NO_MEMORY) return st;
-  if (st != HC_OK && st != HC_BAD_INPUT) s->out->unsolved |= causes_of(s, e, frequency);
-  return HC_OK;
-}
-
-void search_read_distances(search *s, const verify_equations *e, int frequency, const search_distances d,
-                           const double *d_solved)
-{
-  const double *plain = plain_distances(s, e, frequency);
-  double *const most = e->restart >= HBM_RESTART_ZEROED ? s->most_samples[e->restart] : NULL;
-  const verify_sample *p = &s->points;
-  const verify_quantity *asked = &p->quantity[p->first];
-  const verify_causes otherwise = e->harmonics < s->out->harmonics ? VERIFY_BIT(CAUSE_HARMONICS) : 0;
-  const verify_hypothesis given = {.equations = *e,
-                                   .omega_factor = search_omega_factor(frequency),
-                                   .fitted = !s->oscillator && !usual_number(e),
-                                   .causes = causes_of(s, e, frequency)};
-  for (int f = 0; f <= FACTORS; ++f) /* the last is dB */
-    for (int i = 0; i < VERIFY_READINGS; ++i) {
-      verify_hypothesis h = given;
-      verify_causes of_reading;
-      const bool decibel = f == FACTORS;
-      const verify_causes of_factor = decibel ? VERIFY_BIT(CAUSE_DECIBEL) : factors[f].cause;
-      if (!verify_reading(i, asked, &h.quantity, &of_reading)) continue;
-      if ((of_reading & of_factor) || (of_reading && of_factor == VERIFY_BIT(CAUSE_RMS))) continue;
-      if (of_factor == VERIFY_BIT(CAUSE_LENGTH) && verify_scale_near(s->scales, s->n_scales, factors[f].factor, 1e-3))
-        continue;                                            /* the unit may be what the values were divided by */
-      if (given.causes && of_factor && of_reading) continue; /* nothing is that wrong */
-      h.causes |= of_factor | of_reading;
-      if (!h.causes && !(h.causes = otherwise)) continue; /* the truth as it stands is no hypothesis */
-      const int k = f * VERIFY_READINGS + i;
-      h.decibel = decibel;
-      h.value_factor = decibel ? 1 : factors[f].factor;
-      h.distance = d[k];
-      if (most && e->samples == SEARCH_MOST_SAMPLES) most[k] = d[k];
-      else if (most && d[k] < most[k] - s->floor) h.causes |= VERIFY_BIT(CAUSE_SAMPLES);
-      rank(&h, s->floor);
-      if (says_more(s, plain, k, d[k])) search_keep(s, &h);
-      if (d_solved && d_solved[k] <= s->out->gate && d[k] > s->out->gate && says_more(s, plain, k, d_solved[k]))
-        s->out->unsolved |= h.causes;
-    }
-}
-
-static verify_places places_of(const search *s, double omega_factor, double *omega)
-{
-  const verify_sample *p = &s->points;
-  verify_places at = {.from = s->from,
-                      .to = s->to,
-                      .n = p->n,
-                      .omega = omega,
-                      .only = p->looked_at[p->look],
-                      .n_responses = p->n_responses,
-                      .asked = p->quantity,
-                      .value = s->oscillator ? NULL : p->value[0],
-                      .stride = SEARCH_MOST_POINTS,
-                      .curves = s->curves,
-                      .plainly = s->plainly};
-  for (int i = 0; i < p->n; ++i) omega[i] = omega_factor * p->omega[i];
-  if (omega_factor != 1) {
-    number_list ends = {.n = 2, .v = {omega[0], omega[p->n - 1]}};
-    comparison_sweep(s->setup->omega_from, s->setup->omega_to, &ends, &at.from, &at.to);
-  }
-  return at;
-}
-
-hc_status search_follow(search *s, const verify_equations *e, double omega_factor, verify_solutions *out)
-{
-  double omega[SEARCH_MOST_POINTS];
-  const verify_places at = places_of(s, omega_factor, omega);
-  return verify_solutions_of(s->setup, e, &at, s->monitor, out);
-}
-
-hc_status search_near(search *s, const verify_equations *e, double omega_factor, const verify_solutions *near,
-                      verify_solutions *out)
-{
-  double omega[SEARCH_MOST_POINTS];
-  const verify_places at = places_of(s, omega_factor, omega);
-  return verify_solutions_near(s->setup, e, near, &at, out);
-}
-
-/* The least distance of a reading. */
-static double least_distance(const search *s, const verify_solutions *of, double part)
-{
-  double least = 1;
-  verify_sample p = s->points;
-  p.part = part;
-  p.left = INFINITY;
-  for (int f = 0; f <= FACTORS; ++f)
-    for (int i = 0; i < VERIFY_READINGS; ++i)
-      least = fmin(least, distance(&p, f == FACTORS, of, i, f == FACTORS ? 1 : factors[f].factor));
-  return least;
-}
-
-/* Do the points nearly fit, or those at which there are solutions? */
-static bool promising(const search *s, double nine_of_ten, const verify_solutions *of)
-{
-  const double nearly = 0.03;
-  return nine_of_ten <= nearly || least_distance(s, of, 0) <= 3 * s->out->gate;
-}
-
-/* Is no reading near as few points as a right one must fit, be the others on branches that were not found? Few samples
- * have many solutions, of which one guess leads to any. Equations with exact forces may be right but for their number
- * of harmonics. */
-static bool hopeless(const search *s, const verify_equations *e, const verify_solutions *of)
-{
-  const double near = e->samples > 0 ? 0.03 : 0.1; /* [1] */
-  const bool many = e->samples > 0 && e->samples <= VERIFY_FEW_SAMPLES * e->harmonics;
-  return least_distance(s, of, many ? 0.2 : 0.3) > near;
-}
-
-/* Every reading of these equations' solutions; of a number of harmonics also, whether it matters. */
-static void read_tried(search *s, const verify_equations *e, int frequency, const verify_solutions *of)
-{
-  order *o = s->current;
-  const verify_solutions *many = &s->many[e->keep_mean][frequency];
-  if (o) largest_distances(&s->points, of, o->distance[frequency]);
-  if (o && e->harmonics < s->out->harmonics) o->matters[frequency] = verify_apart(&s->points, of, many) > s->out->gate;
-  if (o) o->score = fmin(o->score, verify_closeness(&s->points, of));
-  search_read(s, e, frequency, of);
-}
-
-hc_status search_try(search *s, const verify_equations *e, int frequency, const verify_solutions *near,
-                     verify_solutions *out)
-{
-  const double omega_factor = search_omega_factor(frequency);
-  const bool far = e->change == CHANGE_FRICTION_SIGN; /* the truth's solutions lead to few of theirs */
-  *out = (verify_solutions){0};
-  s->points.look = !near ? SEARCH_ALL : far ? SEARCH_FEW : SEARCH_GLANCE;
-  s->plainly = near;
-  hc_status st = near ? search_near(s, e, omega_factor, near, out) : search_follow(s, e, omega_factor, out);
-  s->plainly = false;
-  if (near && st == HC_OK && !hopeless(s, e, out)) {
-    s->points.look = SEARCH_FEW;
-    verify_solutions_clear(out);
-    st = search_near(s, e, omega_factor, near, out);
-  }
-  s->last = st == HC_OK ? least_distance(s, out, s->points.part) : 1;
-  const bool more = near && st == HC_OK && promising(s, s->last, out);
-  if (more) {
-    s->points.look = SEARCH_ALL;
-    verify_solutions_clear(out);
-    st = search_near(s, e, omega_factor, near, out);
-    if (st == HC_OK) s->last = least_distance(s, out, s->points.part);
-  }
-  if (st == HC_OK) read_tried(s, e, frequency, out);
-  if (more && st == HC_OK && e->samples == 0 && least_distance(s, out, s->points.part) > s->out->gate &&
-      least_distance(s, out, 0) <= 3 * s->out->gate) {
-    verify_solutions_clear(out);
-    st = search_follow(s, e, omega_factor, out);
-    if (st == HC_OK) read_tried(s, e, frequency, out);
-  }
-  return st;
-}
-
-hc_status search_fit(search *s, verify_hypothesis h, const verify_solutions *near)
-{
-  const bool stands = h.omega_factor == 1 && h.value_factor == 1;
-  const double *plain = stands ? plain_distances(s, &h.equations, 0) : NULL;
-  verify_solutions of = {0};
-  s->points.look = SEARCH_ALL;
-  hc_status st = HC_OK;
-  for (int followed = !near; followed < 2 && st == HC_OK; ++followed) {
-    st = followed ? search_follow(s, &h.equations, h.omega_factor, &of)
-                  : search_near(s, &h.equations, h.omega_factor, near, &of);
-    if (st == HC_OK) verify_read_one(&s->points, &of, 0, h.value_factor, s->floor, &h);
-    if (st == HC_OK && says_more(s, plain, 0, h.distance)) search_keep(s, &h);
-    verify_solutions_clear(&of);
-    if (h.distance <= s->out->gate) break;
-  }
-  return st;
-}
-
-bool search_explained(const search *s)
-{
-  const verify_hypothesis *best = &s->out->hypotheses[0];
-  return verify_fits(s->out) && best->distance <= fmin(s->out->gate, nearly_all * s->out->truth_distance);
 }

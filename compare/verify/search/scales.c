@@ -136,7 +136,7 @@ typedef struct stretching {
   double value_factor;
 } stretching;
 
-static hc_status stretched(void *self, double log_factor, double *out)
+static hc_status outline_stretched(void *self, double log_factor, double *out)
 {
   const stretching *t = self;
   const double *values = t->s->points.value[t->s->points.first];
@@ -156,14 +156,14 @@ static double best_stretch(search *s, const outline *o, double value_factor, dou
   double values[SCAN + 1];
   int best = 0;
   for (int i = 0; i <= SCAN; ++i) {
-    stretched(&t, low + (high - low) * i / SCAN, &values[i]);
+    outline_stretched(&t, low + (high - low) * i / SCAN, &values[i]);
     if (values[i] < values[best]) best = i;
   }
   const double step = (high - low) / SCAN, at = low + step * best;
   root_point least = {.x = at};
   if (best > 0 && best < SCAN)
-    root_minimum(stretched, &t, at - step, values[best - 1], at, values[best], at + step, values[best + 1], 1e-6,
-                 &least);
+    root_minimum(outline_stretched, &t, at - step, values[best - 1], at, values[best], at + step, values[best + 1],
+                 1e-6, &least);
   return exp(least.x);
 }
 
@@ -179,7 +179,7 @@ static hc_status stretched_closeness(void *self, double log_factor, double *out)
   search *s = self;
   const verify_equations e = search_equations(s->out->harmonics, true);
   verify_solutions of = {0};
-  hc_status st = search_follow(s, &e, exp(log_factor), &of);
+  hc_status st = search_solve(s, &e, exp(log_factor), NULL, &of);
   if (st == HC_OK) *out = verify_closeness(&s->points, &of);
   verify_solutions_clear(&of);
   return st == HC_OK && !search_tick(s) ? HC_INTERRUPTED : st;
@@ -288,7 +288,7 @@ typedef struct fit {
   verify_solutions last; /* where Newton starts: of a structure, the nearest factor's that was tried */
 } fit;
 
-static double parameter(const fit *f, int i) { return f->turn ? fit_angles[i] : log(fit_factors[i]); }
+static double fit_parameter(const fit *f, int i) { return f->turn ? fit_angles[i] : log(fit_factors[i]); }
 
 static hc_status closeness_at(void *self, double at, double *out)
 {
@@ -298,8 +298,8 @@ static hc_status closeness_at(void *self, double at, double *out)
   f->equations.factor = f->turn ? at : exp(at);
   s->points.look = s->oscillator ? SEARCH_ALL : SEARCH_FEW;
   s->plainly = !s->oscillator;
-  hc_status st = s->oscillator ? search_follow(s, &f->equations, 1, &of)
-                               : search_near(s, &f->equations, 1, f->last.n ? &f->last : &s->many[true][0], &of);
+  const verify_solutions *near = s->oscillator ? NULL : f->last.n ? &f->last : &s->many[true][0];
+  hc_status st = search_solve(s, &f->equations, 1, near, &of);
   if (st == HC_OK) *out = verify_closeness(&s->points, &of);
   if (st == HC_OK && 2 * of.count > s->many[true][0].count * 3 / 10) {
     verify_solutions_clear(&f->last);
@@ -330,7 +330,7 @@ static hc_status walk(fit *f, int from, int by, bool to_the_end, double *values,
   hc_status st = HC_OK;
   verify_solutions_clear(&f->last);
   for (int i = from + by; i >= 0 && i < SCANNED && st == HC_OK; i += by) {
-    st = closeness_at(f, parameter(f, i), &values[i]);
+    st = closeness_at(f, fit_parameter(f, i), &values[i]);
     if (st != HC_OK) return st;
     if (values[i] < values[*best]) *best = i;
     else if (!to_the_end && values[i] > values[i - by]) break;
@@ -374,7 +374,7 @@ static hc_status fit_number(search *s, fit *f)
   for (int i = 0; i < SCANNED; ++i) values[i] = INFINITY;
   hc_status st = HC_OK;
   if (!kind) values[UNCHANGED] = *f->unchanged;
-  if (kind || isnan(*f->unchanged)) st = closeness_at(f, parameter(f, UNCHANGED), &values[UNCHANGED]);
+  if (kind || isnan(*f->unchanged)) st = closeness_at(f, fit_parameter(f, UNCHANGED), &values[UNCHANGED]);
   if (!kind && st == HC_OK) *f->unchanged = values[UNCHANGED];
   for (int by = -1; by <= 1 && st == HC_OK; by += 2) st = walk(f, UNCHANGED, by, kind, values, &best);
   if (st != HC_OK) return st;
@@ -383,8 +383,8 @@ static hc_status fit_number(search *s, fit *f)
   f->steps = 0;
   f->before = values[UNCHANGED];
   f->least = values[best];
-  st = root_minimum(closeness_on_the_way, f, parameter(f, best - 1), values[best - 1], parameter(f, best), values[best],
-                    parameter(f, best + 1), values[best + 1], precise_factor, &least);
+  st = root_minimum(closeness_on_the_way, f, fit_parameter(f, best - 1), values[best - 1], fit_parameter(f, best),
+                    values[best], fit_parameter(f, best + 1), values[best + 1], precise_factor, &least);
   if (st == HC_INTERRUPTED || st == HC_NO_MEMORY) return st;
   if (!s->oscillator && f->least > much_closer * f->before) return HC_OK;
   if (!kind && fabs(least.x) <= (f->turn ? small_angle : small_factor)) return HC_OK;
@@ -397,8 +397,7 @@ static hc_status fit_number(search *s, fit *f)
                          .causes = VERIFY_BIT(verify_changes[change].cause)};
   h.equations.factor = f->turn ? least.x : exp(least.x);
   for (int i = 0; i < SEARCH_USUAL_FACTORS && !f->turn && !s->oscillator; ++i)
-    if (fabs(h.equations.factor / search_factors[i] - 1) < 1e-3)
-      h.equations.factor = search_factors[i], h.fitted = kind;
+    if (fabs(h.equations.factor / search_usual[i] - 1) < 1e-3) h.equations.factor = search_usual[i], h.fitted = kind;
   return search_fit(s, h, s->oscillator ? NULL : &s->many[true][0]);
 }
 
@@ -407,7 +406,7 @@ hc_status search_fits(search *s)
   const model *m = s->setup->model;
   double unchanged = NAN;
   hc_status st = HC_OK;
-  for (int c = CHANGE_FORCE; c < VERIFY_CHANGES && st == HC_OK; ++c)
+  for (int c = CHANGE_FORCE; c < VERIFY_MODEL_CHANGES && st == HC_OK; ++c)
     for (int which = 0; which < verify_change_variants(m, c) && verify_changes[c].scan && st == HC_OK; ++which) {
       fit f = {
           .s = s, .unchanged = &unchanged, .equations = search_own(s), .turn = verify_changes[c].scan == SCAN_TURN};

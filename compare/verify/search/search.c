@@ -1,14 +1,18 @@
-/* search.c - see search.h. In stages, the later ones only if none before explains the points, and as long as the
- * patience lasts:
- *   exact    every number of harmonics with and without harmonic 0, odd ones only, and every change of the model, with
- *            every reading of the columns; one factor of all values or frequencies
- *   sampled  for the likeliest of these, every number of samples: too few, and mistakes in following the slider.
- *            Solutions come by Newton from those with exact forces, at a small part of what the sampled curve would
- *            cost; the likeliest are followed along their own curves, which have solutions that no exact one is near to
- *   numbers  a free factor, or angle, of one number of the model
- *   pairs    changes of the model without harmonic 0, with few harmonics, or few samples
- * A number of harmonics counts as a cause where its solutions are farther than the gate from those of many. Of a
- * structure all but the truth comes by Newton from the truth, first at few of the points. */
+/* search.c - see search.h. The search is the list of stages at the end of this file, run from the first to the last as
+ * long as the patience lasts. Every stage tries equations (tries.c): it solves them, reads the solutions in every way
+ * that the columns may be meant, and keeps the best of every set of causes as a hypothesis. Its score is the distance
+ * from the points, times 3 a cause (search_rank). A stage is passed over once the best hypothesis leaves next to
+ * nothing (search_explained); which cause is then named, readings.c says. Stages learn from those before by three
+ * scores more:
+ *   order.score       of a number of harmonics, with harmonic 0 or without: how close its exact forces come
+ *   likely_score      of a number of samples and a rule for the slider: how close those come, with these harmonics
+ *   last              of the equations tried last: their best reading
+ *
+ * Exact forces come first. Sampled ones start Newton from the exact ones' solutions, at a small part of what the
+ * sampled curve would cost; the likeliest are followed along their own curves, which have solutions that no exact one
+ * is near to. A number of harmonics counts as a cause where its solutions are farther than the gate from those of many.
+ * Of a structure all but the truth comes by Newton from the truth, first at few of the points, and the plainest
+ * mistakes go first: its curves are dearer, and more may be wrong. */
 #include "compare/verify/search/search.h"
 
 #include <math.h>
@@ -31,7 +35,7 @@ enum {
   USUAL_HARMONICS = 10
 };
 
-static void fill(int n, double value, double *out)
+static void fill_distances(int n, double value, double *out)
 {
   for (int i = 0; i < n; ++i) out[i] = value;
 }
@@ -43,27 +47,25 @@ static const verify_solutions *start_of(const search *s, int frequency)
   return s->oscillator || !truth->n ? NULL : truth;
 }
 
-/* Every reading of the solutions of *e, for one reading of the frequency. HC_OK where there are no such equations. */
-static hc_status try_at(search *s, const verify_equations *e, int frequency)
-{
-  verify_solutions of = {0};
-  hc_status st = search_try(s, e, frequency, start_of(s, frequency), &of);
-  s->points.look = SEARCH_ALL;
-  verify_solutions_clear(&of);
-  return search_passed(s, e, frequency, st);
-}
-
-/* Each possible reading of the frequency. HC_OK where there are no such equations. */
+/* Every possible reading of the frequency. HC_OK where there are no such equations. */
 static hc_status try_equations(search *s, const verify_equations *e)
 {
+  const bool many = s->current && e->harmonics == s->out->harmonics; /* what others start from is of all points */
   hc_status st = HC_OK;
-  for (int f = 0; f < SEARCH_FREQUENCIES && st == HC_OK; ++f)
-    if (s->scaled[f]) st = try_at(s, e, f);
+  for (int f = 0; f < SEARCH_FREQUENCIES && st == HC_OK; ++f) {
+    verify_solutions of = {0};
+    if (!s->scaled[f]) continue;
+    st = search_try(s, e, f, many ? NULL : start_of(s, f), &of);
+    s->points.look = SEARCH_ALL;
+    if (many) s->many[e->keep_mean][f] = of;
+    else verify_solutions_clear(&of);
+    if (!s->current) st = search_passed(s, e, f, st);
+  }
   return st == HC_OK && !search_tick(s) ? HC_INTERRUPTED : st;
 }
 
 /* Equations that are otherwise *like, with each of n numbers of harmonics. */
-static hc_status try_harmonics(search *s, const verify_equations *like, int n, const int *harmonics)
+static hc_status try_numbers_of_harmonics(search *s, const verify_equations *like, int n, const int *harmonics)
 {
   verify_equations e = *like;
   hc_status st = HC_OK;
@@ -79,23 +81,12 @@ static hc_status try_harmonics(search *s, const verify_equations *like, int n, c
 static hc_status try_order(search *s, int harmonics, bool keep_mean)
 {
   const verify_equations e = search_equations(harmonics, keep_mean);
-  const bool many = harmonics == s->out->harmonics;
-  order *o = &s->orders[s->n_orders++];
-  hc_status st = HC_OK;
+  order *o = s->current = &s->orders[s->n_orders++];
   *o = (order){.harmonics = harmonics, .keep_mean = keep_mean, .score = INFINITY};
-  for (int f = 0; f < SEARCH_FREQUENCIES; ++f) fill(SEARCH_DISTANCES, INFINITY, o->distance[f]);
-  s->current = o;
-  for (int f = 0; f < SEARCH_FREQUENCIES && st == HC_OK; ++f) {
-    if (!s->scaled[f]) continue;
-    verify_solutions of = {0};
-    /* What others start from is of all points. */
-    st = search_try(s, &e, f, many ? NULL : start_of(s, f), &of);
-    if (many) s->many[keep_mean][f] = of;
-    else verify_solutions_clear(&of);
-    s->points.look = SEARCH_ALL;
-  }
+  for (int f = 0; f < SEARCH_FREQUENCIES; ++f) fill_distances(SEARCH_DISTANCES, INFINITY, o->distance[f]);
+  const hc_status st = try_equations(s, &e);
   s->current = NULL;
-  return st == HC_OK && !search_tick(s) ? HC_INTERRUPTED : st;
+  return st;
 }
 
 /* With the truth's harmonics, and with the case's: what hypotheses must be better than. */
@@ -123,7 +114,7 @@ static hc_status try_odd_only(search *s)
   const int orders[] = {s->own, s->out->harmonics, 3, 5, 7, 9};
   const verify_equations odd = {.odd_only = true, .factor = 1};
   if (s->setup->model->n_contacts == 0) return HC_OK;
-  return try_harmonics(s, &odd, sizeof orders / sizeof *orders, orders);
+  return try_numbers_of_harmonics(s, &odd, sizeof orders / sizeof *orders, orders);
 }
 
 /* ---- changes of the model ---- */
@@ -160,13 +151,13 @@ static hc_status try_changes(search *s, const verify_equations *like, verify_cha
     for (int i = 0; i < numbers * variants && !of_response && st == HC_OK; ++i) {
       /* For a single contact search_fits knows all but the factor 0. */
       const bool fitted = factor && !s->oscillator && c != CHANGE_ONE_LOAD && i % variants > 0;
-      if (fitted && search_factors[i / variants] != 0) continue;
+      if (fitted && search_usual[i / variants] != 0) continue;
       verify_equations e = *like;
       e.change = c;
       e.which = i % variants;
       e.n = m->n;
       if (verify_changes[c].scan == SCAN_TURN || verify_change_of_kind(c)) break; /* no number is usual */
-      e.factor = factor ? search_factors[i / variants] : 1;
+      e.factor = factor ? search_usual[i / variants] : 1;
       if (verify_equations_linear(&e)) e.harmonics = model_highest_load(m) > 1 ? model_highest_load(m) : 1;
       st = try_equations(s, &e);
       if (st == HC_OK && !s->oscillator && !verify_equations_linear(&e)) st = try_orders_of(s, &e);
@@ -178,7 +169,7 @@ static hc_status try_changes(search *s, const verify_equations *like, verify_cha
 static hc_status try_every_change(search *s)
 {
   const verify_equations own = search_own(s);
-  return try_changes(s, &own, CHANGE_NONE + 1, VERIFY_CHANGES - 1);
+  return try_changes(s, &own, CHANGE_NONE + 1, VERIFY_MODEL_CHANGES - 1);
 }
 
 /* The other law of two tangents, or one tangent alone: what programs differ in, and before what is dear. All of them,
@@ -207,7 +198,7 @@ static hc_status try_orders_of_changed(search *s)
   for (int i = 0; i < s->out->n_hypotheses && n < TOP; ++i)
     if (s->out->hypotheses[i].equations.change > CHANGE_STUCK) top[n++] = s->out->hypotheses[i].equations;
   for (int k = 0; k < n && st == HC_OK && !search_explained(s); ++k)
-    st = try_harmonics(s, &top[k], sizeof orders / sizeof *orders, orders);
+    st = try_numbers_of_harmonics(s, &top[k], sizeof orders / sizeof *orders, orders);
   return st;
 }
 
@@ -231,7 +222,7 @@ static hc_status try_responses(search *s)
       for (int k = 0; k < SEARCH_DISTANCES; ++k) best[r][k] = 1;
     const verify_equations plain = search_equations(e.harmonics, true);
     s->plainly = true;
-    st = search_near(s, &plain, 1, &s->many[true][0], &of);
+    st = search_solve(s, &plain, 1, &s->many[true][0], &of);
     s->plainly = false;
     for (int r = 0; r < p->n_responses && st == HC_OK; ++r)
       if (r != p->first) search_distances_of(p, r, &of, best[r]); /* it may be the one that is meant */
@@ -288,24 +279,23 @@ typedef struct base {
 static hc_status base_solve(search *s, const verify_equations *e, int frequency, base *out)
 {
   *out = (base){.equations = *e, .frequency = frequency};
-  const double factor = search_omega_factor(frequency);
   const verify_solutions *near = start_of(s, frequency);
   s->plainly = near;
-  const hc_status st = near ? search_near(s, e, factor, near, &out->exact) : search_follow(s, e, factor, &out->exact);
+  const hc_status st = search_solve(s, e, search_omega_factor(frequency), near, &out->exact);
   s->plainly = false;
   return st;
 }
 
-static hc_status try_rate(search *s, const base *b, int samples, int restart)
+static hc_status try_rate(search *s, const base *b, int samples, verify_change slider)
 {
   verify_equations e = b->equations;
   verify_solutions of = {0};
   e.samples = samples;
-  e.restart = restart;
+  e.restart = (int)slider - VERIFY_MODEL_CHANGES;
   if (samples < 2 * e.harmonics + 1) return HC_OK;
   hc_status st = HC_OK;
   if (s->oscillator) {
-    st = search_near(s, &e, search_omega_factor(b->frequency), &b->exact, &of);
+    st = search_solve(s, &e, search_omega_factor(b->frequency), &b->exact, &of);
     if (st == HC_OK) search_read(s, &e, b->frequency, &of);
   } else st = search_try(s, &e, b->frequency, &b->exact, &of);
   if (st == HC_OK) {
@@ -319,25 +309,30 @@ static hc_status try_rate(search *s, const base *b, int samples, int restart)
   return st;
 }
 
-static hc_status try_rates(search *s, const base *b, int n, const int *samples, int last_restart)
+/* Each of n numbers of samples with the rules first..last for the slider. */
+static hc_status try_rates(search *s, const base *b, int n, const int *samples, verify_change first, verify_change last)
 {
-  static const hbm_restart rules[] = {HBM_RESTART_INTERPOLATED, HBM_RESTART_SAMPLE, HBM_RESTART_RADIAL};
-  const bool planar = model_whole_contacts(s->setup->model) < s->setup->model->n_contacts;
-  const int n_rules = planar ? 3 : last_restart == HBM_RESTART_SAMPLE ? 2 : 1;
   hc_status st = HC_OK;
   for (int i = 0; i < n && st == HC_OK; ++i)
-    for (int k = n_rules - 1; k >= 0 && st == HC_OK; --k) st = try_rate(s, b, samples[i], rules[k]);
+    for (int k = last; k >= (int)first && st == HC_OK; --k) st = try_rate(s, b, samples[i], k);
   return st;
 }
 
+/* Our own rules up to `last`; with two tangents that of other programs, too. */
+static hc_status try_own_rates(search *s, const base *b, int n, const int *samples, verify_change last)
+{
+  const bool radial = verify_change_applies(s->setup->model, CHANGE_SLIDER_RADIAL, true);
+  return try_rates(s, b, n, samples, CHANGE_SLIDER_INTERPOLATED, radial ? CHANGE_SLIDER_RADIAL : last);
+}
+
 /* Order number i with each of n numbers of samples. */
-static hc_status try_order_sampled(search *s, int i, int n, const int *samples, int last_restart)
+static hc_status try_order_sampled(search *s, int i, int n, const int *samples, verify_change last)
 {
   const verify_equations e = search_equations(s->orders[i].harmonics, s->orders[i].keep_mean);
   base b;
   if (s->setup->model->n_contacts == 0) return HC_OK;
   hc_status st = base_solve(s, &e, s->frequency, &b);
-  if (st == HC_OK) st = try_rates(s, &b, n, samples, last_restart);
+  if (st == HC_OK) st = try_own_rates(s, &b, n, samples, last);
   verify_solutions_clear(&b.exact);
   return st;
 }
@@ -390,7 +385,7 @@ static hc_status try_bases(search *s)
   s->expected = s->done + 2 * n * POWERS_OF_TWO + 4 * SAMPLES_TRIED;
   for (int i = 0; i < n && st == HC_OK; ++i) {
     const bool own = s->orders[bases[i]].harmonics == s->own;
-    st = try_order_sampled(s, bases[i], own ? SAMPLES_TRIED : POWERS_OF_TWO, samples_tried, HBM_RESTART_SAMPLE);
+    st = try_order_sampled(s, bases[i], own ? SAMPLES_TRIED : POWERS_OF_TWO, samples_tried, CHANGE_SLIDER_ON_SAMPLE);
   }
   return st;
 }
@@ -405,11 +400,12 @@ static hc_status try_near_likeliest(search *s)
   top.samples = 0;
   hc_status st = base_solve(s, &top, s->frequency, &b);
   if (st == HC_OK && top.harmonics != s->own)
-    st = try_rates(s, &b, SAMPLES_TRIED - POWERS_OF_TWO, samples_tried + POWERS_OF_TWO, HBM_RESTART_SAMPLE);
+    st = try_own_rates(s, &b, SAMPLES_TRIED - POWERS_OF_TWO, samples_tried + POWERS_OF_TWO, CHANGE_SLIDER_ON_SAMPLE);
   top = s->likely[0];
   const bool same = top.harmonics == b.equations.harmonics && top.keep_mean == b.equations.keep_mean;
   for (int d = -AROUND; d <= AROUND && same && st == HC_OK && !search_explained(s); ++d)
-    if (d && top.samples + d > 2 && top.samples <= FEWEST_SPACED) st = try_rate(s, &b, top.samples + d, top.restart);
+    if (d && top.samples + d > 2 && top.samples <= FEWEST_SPACED)
+      st = try_rate(s, &b, top.samples + d, VERIFY_MODEL_CHANGES + top.restart);
   verify_solutions_clear(&b.exact);
   return st;
 }
@@ -422,7 +418,7 @@ static hc_status try_likeliest_with_orders(search *s)
   const verify_equations top = s->likely[0];
   for (int i = 0; i < s->n_orders && st == HC_OK && !search_explained(s); ++i)
     if (s->orders[i].keep_mean == top.keep_mean && s->orders[i].harmonics != top.harmonics)
-      st = try_order_sampled(s, i, 1, &top.samples, HBM_RESTART_SAMPLE);
+      st = try_order_sampled(s, i, 1, &top.samples, CHANGE_SLIDER_ON_SAMPLE);
   return st;
 }
 
@@ -437,8 +433,8 @@ static hc_status try_small(search *s)
     int n = 0;
     while (n < (int)(sizeof rates / sizeof *rates) && rates[n] <= SMALL * harmonics) ++n;
     if (harmonics > SMALL || harmonics == s->own) continue;
-    st = try_order_sampled(s, i, n, rates, HBM_RESTART_INTERPOLATED);
-    if (st == HC_OK) st = try_order_sampled(s, i, 3, least, HBM_RESTART_INTERPOLATED);
+    st = try_order_sampled(s, i, n, rates, CHANGE_SLIDER_INTERPOLATED);
+    if (st == HC_OK) st = try_order_sampled(s, i, 3, least, CHANGE_SLIDER_INTERPOLATED);
   }
   return st;
 }
@@ -465,21 +461,16 @@ static hc_status try_sliders(search *s)
     const verify_equations e = search_equations(orders[k], true);
     base b;
     st = base_solve(s, &e, 0, &b);
-    for (int i = 0; i <= HBM_RESTART_ONE_PASS_SAMPLE; ++i) fill(SEARCH_DISTANCES, INFINITY, s->most_samples[i]);
-    for (int restart = HBM_RESTART_ZEROED; restart <= HBM_RESTART_ONE_PASS_SAMPLE && st == HC_OK; ++restart)
-      for (size_t i = 0; i < sizeof rates / sizeof *rates && st == HC_OK; ++i) st = try_rate(s, &b, rates[i], restart);
+    for (int i = 0; i < VERIFY_CHANGES - VERIFY_MODEL_CHANGES; ++i)
+      fill_distances(SEARCH_DISTANCES, INFINITY, s->most_samples[i]);
+    if (st == HC_OK)
+      st = try_rates(s, &b, sizeof rates / sizeof *rates, rates, CHANGE_SLIDER_ZEROED, VERIFY_CHANGES - 1);
     verify_solutions_clear(&b.exact);
   }
   return st;
 }
 
-/* ---- in stages ---- */
-
-typedef struct stage {
-  hc_status (*run)(search *s);
-  bool always; /* else only if nothing explains the points so far */
-  const char *words;
-} stage;
+/* ---- the stages ---- */
 
 /* Is the best hypothesis a factor without a name? Factors of the model's numbers may do what it does. */
 static bool free_factor(const search *s) { return s->out->hypotheses[0].fitted; } /* false where there is none yet */
@@ -492,45 +483,47 @@ static hc_status try_pairs(search *s)
 {
   const verify_equations without = search_equations(s->own, false);
   if (verify_fits(s->out)) return HC_OK;
-  return try_changes(s, &without, CHANGE_NONE + 1, VERIFY_CHANGES - 1);
+  return try_changes(s, &without, CHANGE_NONE + 1, VERIFY_MODEL_CHANGES - 1);
 }
 
-/* Curves of a structure are dearer, and more may be wrong: the plainest first, until one explains the points. */
-static const stage of_structure[] = {{try_truth, true, "columns"},
-                                     {try_limits, false, "limits of friction"},
-                                     {try_responses, false, "responses"},
-                                     {try_other_orders, false, "harmonics"},
-                                     {try_every_change, false, "equations"},
-                                     {try_odd_only, false, NULL},
-                                     {try_small, false, "samples"},
-                                     {search_fits, false, "numbers of the model"},
-                                     {try_bases, false, "samples"},
-                                     {search_scales, false, "scales"},
-                                     {try_near_likeliest, false, "samples"},
-                                     {try_likeliest_with_orders, false, NULL},
-                                     {try_orders_of_changed, false, "equations with other harmonics"},
-                                     {try_sliders, false, "sliders"},
-                                     {try_curves, false, "samples' own curves"},
-                                     {try_pairs, false, "equations without harmonic 0"}};
-static const stage of_oscillator[] = {{try_truth, true, "columns"},
-                                      {try_other_orders, true, "harmonics"},
-                                      {search_scales, true, "scales"},
-                                      {try_odd_only, true, NULL},
-                                      {try_every_change, true, "equations"},
-                                      {try_sliders, false, "sliders"},
-                                      {try_orders_of_changed, false, "equations with other harmonics"},
-                                      {try_fits_of_factor, true, NULL},
-                                      {try_bases, false, "samples"},
-                                      {try_small, false, NULL},
-                                      {try_near_likeliest, false, NULL},
-                                      {try_likeliest_with_orders, false, NULL},
-                                      {try_curves, false, "samples' own curves"},
-                                      {try_fits_of_rest, false, "numbers of the model"},
-                                      {try_pairs, false, "equations without harmonic 0"}};
-enum {
-  OF_STRUCTURE = sizeof of_structure / sizeof *of_structure,
-  OF_OSCILLATOR = sizeof of_oscillator / sizeof *of_oscillator
+#define OTHER_HARMONICS "equations with other harmonics"
+typedef enum stage_in { OSCILLATORS = 1, STRUCTURES = 2, BOTH = 3 } stage_in;
+
+/* One stage. */
+typedef struct stage {
+  hc_status (*run)(search *s);
+  stage_in in;       /* scenes that it is for */
+  stage_in always;   /* in these also where a hypothesis explains the points already */
+  const char *words; /* what it tries, as it is said; NULL: other stages say it */
+} stage;
+
+/* What they try, and the score that a later one goes by where it is not the hypotheses' own. */
+static const stage stages[] = {
+    {try_truth, BOTH, BOTH, "columns"},                         /* many harmonics, and the case's: every reading */
+    {try_limits, STRUCTURES, 0, "limits of friction"},          /* the other law of two tangents, or one alone */
+    {try_responses, STRUCTURES, 0, "responses"},                /* every degree of freedom */
+    {try_other_orders, BOTH, OSCILLATORS, "harmonics"},         /* numbers of harmonics: order.score */
+    {search_scales, OSCILLATORS, OSCILLATORS, "scales"},        /* a factor of all values, or frequencies */
+    {try_odd_only, OSCILLATORS, OSCILLATORS, NULL},             /* odd harmonics */
+    {try_every_change, BOTH, OSCILLATORS, "equations"},         /* the table of changes.h */
+    {try_odd_only, STRUCTURES, 0, NULL},                        /* odd harmonics */
+    {try_sliders, OSCILLATORS, 0, "sliders"},                   /* mistakes in following the slider */
+    {try_orders_of_changed, OSCILLATORS, 0, OTHER_HARMONICS},   /* the best changes with other harmonics */
+    {try_fits_of_factor, OSCILLATORS, OSCILLATORS, NULL},       /* what else a fitted factor may be */
+    {try_small, STRUCTURES, 0, "samples"},                      /* few harmonics, few samples: likely_score */
+    {search_fits, STRUCTURES, 0, "numbers of the model"},       /* a free factor of one number, or an angle */
+    {try_bases, BOTH, 0, "samples"},                            /* samples with the best orders: likely_score */
+    {try_small, OSCILLATORS, 0, "samples"},                     /* few harmonics, few samples: likely_score */
+    {search_scales, STRUCTURES, 0, "scales"},                   /* a factor of all values, or frequencies */
+    {try_near_likeliest, BOTH, 0, "samples"},                   /* samples around the likeliest: likely_score */
+    {try_likeliest_with_orders, BOTH, 0, NULL},                 /* the likeliest samples with other harmonics */
+    {try_orders_of_changed, STRUCTURES, 0, OTHER_HARMONICS},    /* the best changes with other harmonics */
+    {try_sliders, STRUCTURES, 0, "sliders"},                    /* mistakes in following the slider */
+    {try_curves, BOTH, 0, "samples' own curves"},               /* the likeliest samples, along their curves */
+    {try_fits_of_rest, OSCILLATORS, 0, "numbers of the model"}, /* a free factor of one number, or an angle */
+    {try_pairs, BOTH, 0, "equations without harmonic 0"},       /* the table of changes.h, without harmonic 0 */
 };
+enum { STAGES = sizeof stages / sizeof *stages };
 
 static void add_words(char *text, size_t size, const char *words)
 {
@@ -538,20 +531,24 @@ static void add_words(char *text, size_t size, const char *words)
   if (words && !strstr(text, words)) snprintf(text + used, size - used, "%s%s", used ? ", " : "", words);
 }
 
-static hc_status run_stages(search *s, int n, const stage *stages)
+/* HC_INTERRUPTED: out of patience, or stopped. */
+static hc_status run_stages(search *s)
 {
+  const stage_in here = s->oscillator ? OSCILLATORS : STRUCTURES;
   verify_report *out = s->out;
   hc_status st = HC_OK;
-  int i = 0;
-  for (; i < n && st == HC_OK; ++i) {
-    if (!stages[i].always && search_explained(s)) continue;
-    st = stages[i].run(s);
-    if (st == HC_OK) add_words(out->tried, sizeof out->tried, stages[i].words);
-    if (st == HC_OK && s->said) search_say(s);
+  for (int i = 0; i < STAGES; ++i) {
+    const stage *one = &stages[i];
+    if (!(one->in & here)) continue;
+    const bool passed_over = st == HC_OK && !(one->always & here) && search_explained(s);
+    if (st == HC_OK && !passed_over) {
+      st = one->run(s);
+      if (st == HC_OK) add_words(out->tried, sizeof out->tried, one->words);
+      if (st == HC_OK && s->said) search_say(s);
+    }
+    if (st == HC_INTERRUPTED && (!one->words || !strstr(out->tried, one->words)))
+      add_words(out->not_tried, sizeof out->not_tried, one->words);
   }
-  for (i = st == HC_INTERRUPTED ? i - 1 : n; i < n; ++i)
-    if (!stages[i].words || !strstr(out->tried, stages[i].words))
-      add_words(out->not_tried, sizeof out->not_tried, stages[i].words);
   return st;
 }
 
@@ -570,7 +567,7 @@ static bool patient(void *self, double done)
 }
 
 /* Another reading of the frequencies is tried if all points that differ are then within a factor 2 of the sweep. */
-static void find_frequencies(search *s)
+static void search_frequencies(search *s)
 {
   double low = fmin(s->setup->omega_from, s->setup->omega_to) / 2,
          high = fmax(s->setup->omega_from, s->setup->omega_to) * 2;
@@ -608,8 +605,8 @@ hc_status verify_search(const compare_setup *setup, int n, const verify_judged *
   out->n_hypotheses = 0;
   out->truth_distance = verify_truth_distance(&s->points);
   if (st == HC_OK) {
-    find_frequencies(s);
-    st = s->oscillator ? run_stages(s, OF_OSCILLATOR, of_oscillator) : run_stages(s, OF_STRUCTURE, of_structure);
+    search_frequencies(s);
+    st = run_stages(s);
   }
   if (st == HC_INTERRUPTED && left.over) st = HC_OK;
   if (st == HC_OK) search_judge(out);

@@ -1,6 +1,6 @@
 /* search.h - which of our own equations, and which reading of the columns, the points lie on; private to
  * compare/verify/. Below the first part what the files of the search have from each other: search.c (the stages),
- * readings.c (hypotheses, which cause is named), scales.c (free factors). */
+ * tries.c (one set of equations tried), readings.c (distances, which cause is named), scales.c (free factors). */
 #pragma once
 
 #include "compare/verify/truth/report.h"
@@ -78,19 +78,30 @@ double verify_truth_distance(const verify_sample *p);
 /* HC_NO_MEMORY. */
 hc_status verify_sample_of(int n, const verify_judged *responses, verify_sample *out);
 
-/* [1] The largest distance of a response: of each factor of the values (the last: dB) and reading. */
+/* What values may be multiplied by. */
+typedef struct search_factor {
+  double factor;       /* [1] */
+  verify_causes cause; /* bit */
+  bool decibel;        /* in dB where the file says not, or not where it says so */
+} search_factor;
 enum { SEARCH_FACTORS = 9 };
-enum { SEARCH_DISTANCES = SEARCH_FACTORS * VERIFY_READINGS };
-typedef double search_distances[SEARCH_DISTANCES]; /* the readings of one factor together; the first: as it stands */
-void search_distances_of(const verify_sample *p, int response, const verify_solutions *of, search_distances out);
+extern const search_factor search_factors[SEARCH_FACTORS];
 
-/* One reading: number `reading` of verify_reading, times `factor`, into *h. Distances below `floor` are
- * all the same. */
+/* [1] Of each factor the readings together; the first: as it stands. Of one response; the largest of all. */
+enum { SEARCH_DISTANCES = SEARCH_FACTORS * VERIFY_READINGS };
+typedef double search_distances[SEARCH_DISTANCES];
+void search_distances_of(const verify_sample *p, int response, const verify_solutions *of, search_distances out);
+void search_largest_distances(const verify_sample *p, const verify_solutions *of, search_distances out);
+
+/* h->score from its distance, of which those below `floor` are all the same, and its causes. */
+void search_rank(verify_hypothesis *h, double floor);
+
+/* One reading: number `reading` of verify_reading, times `factor`, into *h, ranked. */
 void verify_read_one(const verify_sample *p, const verify_solutions *s, int reading, double factor, double floor,
                      verify_hypothesis *h);
 
-/* [1] The mean distance of the points as they stand, with a ceiling: what fits of a factor are led by, as
- * it changes with every point. */
+/* [1] Mean distance of the points as they stand, each no more than a ceiling: what fits of a factor minimise, since it
+ * changes with every point. */
 double verify_closeness(const verify_sample *p, const verify_solutions *s);
 
 /* [1] How far solutions a are from the nearest of b: the largest at an omega, nine of ten points that differ, and have
@@ -105,48 +116,51 @@ double verify_read_plain(const verify_sample *p, const verify_solutions *s);
 enum {
   SEARCH_FREQUENCIES = 3, /* omega as it stands, in cycles, or the other way */
   SEARCH_MOST_ORDERS = 40,
-  SEARCH_MOST_SAMPLES = 1024, /* of a mistake about the slider */
+  SEARCH_MOST_SAMPLES = 1024, /* with which a slider's mistake is tried first */
   SEARCH_MOST_LIKELY = 4
 };
 
-/* The equations with exact forces and one number of harmonics, with or without harmonic 0. */
+/* The equations with exact forces and one number of harmonics, with or without harmonic 0; by reading of omega. */
 typedef struct order {
   int harmonics;
   bool keep_mean;
-  bool matters[SEARCH_FREQUENCIES]; /* is it far from many harmonics, by the gate? */
-  double score;
-  search_distances distance[SEARCH_FREQUENCIES]; /* INFINITY where there are none */
+  bool matters[SEARCH_FREQUENCIES]; /* true if its solutions are farther than the gate from those of many harmonics */
+  double score;                     /* [1] verify_closeness, the least of the readings of omega */
+  search_distances distance[SEARCH_FREQUENCIES]; /* of every reading of the columns; INFINITY: not solved */
 } order;
 
 typedef struct search {
+  /* What is asked. */
   const compare_setup *setup;
-  const hc_monitor *monitor; /* which the patience is in */
-  const verify_effort *effort;
+  const hc_monitor *monitor;   /* interrupts when the patience is over */
+  const verify_effort *effort; /* may be NULL */
   const verify_curves *curves; /* the truth's */
   verify_report *out;
   verify_sample points;
-  bool oscillator; /* its curves are followed; of a structure solutions come by Newton from the truth's */
-  bool said;       /* effort->say was called */
-  double begun;    /* [s] on the thread's clock */
-  verify_causes said_causes;
-  double from, to; /* the sweep that covers the points as they stand */
-  double floor;    /* distances below are all the same */
-  int own;         /* the case's harmonics */
-  int n_scales;    /* what the values may have been divided by */
+  bool oscillator; /* curves are followed; else solutions come by Newton from the truth's */
+  double from, to; /* [rad/time] sweep that covers the points, omega as it stands */
+  double floor;    /* [1] distance below which none is better than another: a tenth of the gate */
+  int own;         /* the case's number of harmonics */
+  int n_scales;    /* numbers that the values may have been divided by */
   verify_scale scales[VERIFY_MOST_SCALES];
-  bool scaled[SEARCH_FREQUENCIES];              /* is this reading of the frequency possible? */
-  verify_solutions many[2][SEARCH_FREQUENCIES]; /* with the truth's harmonics: without harmonic 0, with */
+  bool scaled[SEARCH_FREQUENCIES]; /* true if the points are near the sweep by this reading of omega */
+  /* What was found. */
+  verify_solutions many[2][SEARCH_FREQUENCIES]; /* of the truth's number of harmonics, without harmonic 0 and with */
   int n_orders;
-  order orders[SEARCH_MOST_ORDERS];
-  order *current; /* the one that is tried now; NULL: none */
-  int n_likely;   /* sampled equations that may be it, likeliest first */
-  int frequency;  /* the reading of it that these have */
-  search_distances most_samples[HBM_RESTART_ONE_PASS_SAMPLE + 1]; /* of each mistake about the slider, or INFINITY */
-  verify_equations likely[SEARCH_MOST_LIKELY];
-  double likely_score[SEARCH_MOST_LIKELY];
-  double last;        /* [1] distance of the best reading of what was tried last */
-  bool plainly;       /* search_near: of a structure, from one guess where that leads to a solution */
-  int done, expected; /* equations, for the monitor */
+  order orders[SEARCH_MOST_ORDERS]; /* in the order in which they were tried */
+  order *current;                   /* the order being tried; NULL: none */
+  int n_likely;
+  verify_equations likely[SEARCH_MOST_LIKELY]; /* sampled equations, likeliest first */
+  double likely_score[SEARCH_MOST_LIKELY];     /* [1] geometric mean of the points' distances, as they stand */
+  int frequency;                               /* reading of omega with which samples are tried */
+  search_distances most_samples[VERIFY_CHANGES - VERIFY_MODEL_CHANGES]; /* of each slider with SEARCH_MOST_SAMPLES */
+  double last;  /* [1] distance of the best reading of the equations tried last */
+  bool plainly; /* of search_solve: no second guess at a point where the first converges */
+  /* What was said. */
+  bool said;                 /* true once the first answer was due */
+  double begun;              /* [s] on the thread's clock */
+  verify_causes said_causes; /* in the last answer */
+  int done, expected;        /* equations tried, for the monitor */
 } search;
 
 /* Number i of the numbers of harmonics that programs usually keep, and the truth's: two that take little come first. */
@@ -155,7 +169,7 @@ int search_order(const search *s, int i);
 
 /* Factors of the model's numbers that are no fits; the last of a gap alone. */
 enum { SEARCH_USUAL_FACTORS = 5 };
-extern const double search_factors[SEARCH_USUAL_FACTORS];
+extern const double search_usual[SEARCH_USUAL_FACTORS];
 
 double search_omega_factor(int frequency); /* 0: as it stands */
 
@@ -165,15 +179,14 @@ bool search_tick(search *s);
 /* The best so far, to whoever wants to hear of it, if it is another than last time. */
 void search_say(search *s);
 
-/* Equations with exact forces and so many harmonics; with the case's own. */
+/* Equations with exact forces and this number of harmonics; with the case's own. */
 verify_equations search_equations(int harmonics, bool keep_mean);
 verify_equations search_own(const search *s);
 
-/* Their solutions at the points' omegas times the factor: along their curve, or by Newton from `near`. HC_BAD_INPUT:
+/* Their solutions at the points' omegas times the factor: by Newton from `near`; NULL: along their curve. HC_BAD_INPUT:
  * there are no such equations. */
-hc_status search_follow(search *s, const verify_equations *e, double omega_factor, verify_solutions *out);
-hc_status search_near(search *s, const verify_equations *e, double omega_factor, const verify_solutions *near,
-                      verify_solutions *out);
+hc_status search_solve(search *s, const verify_equations *e, double omega_factor, const verify_solutions *near,
+                       verify_solutions *out);
 
 /* By the one that pays, and every reading of them among the hypotheses. Of a structure at a glance, with one guess
  * a point, then at few of the points, at all if these are promising, and along the curve if most of those fit. *out is

@@ -15,8 +15,13 @@ typedef struct verify_equations {
   bool keep_mean, odd_only;
   int harmonics;
   int samples; /* 0: exact forces */
-  int restart; /* hbm_restart, for samples */
+  int restart; /* how the slider is followed, for samples: verify_slider_kind; the first are hbm_restart */
 } verify_equations;
+
+static inline const verify_change_kind *verify_slider_kind(const verify_equations *e)
+{
+  return &verify_changes[VERIFY_MODEL_CHANGES + e->restart];
+}
 
 /* Have they no forces that harmonics or samples could be too few for? */
 static inline bool verify_equations_linear(const verify_equations *e)

@@ -18,9 +18,7 @@ compare_setup verify_settings(const compare_setup *setup, const verify_equations
   own.hbm.keep_mean = e->keep_mean;
   own.hbm.force = e->samples ? HBM_FORCE_SAMPLED : HBM_FORCE_EXACT;
   own.hbm.samples = e->samples ? e->samples : 1024;
-  own.hbm.restart = e->restart;
   own.hbm.continuation = HBM_CONTINUATION_AUTO;
-  own.hbm.mistakes = (hbm_mistakes){.odd_only = e->odd_only};
   return own;
 }
 
@@ -82,6 +80,7 @@ hc_status verify_motion_of_solution(hbm_solver *hbm, double omega, const double 
 
 /* Equations ready to be solved. */
 typedef struct problem {
+  verify_mistakes wrong;
   hbm_solver *hbm;
   int dofs, first_dof;                      /* of the responses that is the motion of the first */
   double *offset, *X;                       /* [responses] [length] theirs are the solver's plus these; [n_coef] */
@@ -99,14 +98,14 @@ static hc_status problem_new(const compare_setup *setup, const verify_equations 
 {
   compare_setup own = verify_settings(setup, e);
   model *theirs;
-  *out = (problem){.dofs = setup->model->n, .first_dof = setup->model->n_responses - setup->model->n};
+  *out = (problem){.wrong = {.slider = verify_slider_kind(e)->slider, .odd_only = e->odd_only},
+                   .dofs = setup->model->n,
+                   .first_dof = setup->model->n_responses - setup->model->n};
   if (!(out->offset = calloc((size_t)setup->model->n_responses, sizeof *out->offset))) return HC_NO_MEMORY;
   const verify_changed how = {e->change, e->factor, e->which};
-  hc_status st =
-      verify_changed_model(setup->model, &how, e->keep_mean && !e->odd_only, &theirs, out->offset, &own.hbm.mistakes);
+  hc_status st = verify_changed_model(setup->model, &how, e->keep_mean, &theirs, out->offset, &out->wrong);
   if (st != HC_OK) return st;
-  const hbm_mistakes *wrong = &own.hbm.mistakes;
-  if (wrong->mean_error != 0 || wrong->turned || wrong->mean || wrong->hysteretic) own.hbm.skip_linear = false;
+  verify_plug_in(&out->wrong, &own.hbm);
   st = guided_hbm_solver_new(theirs, &own.hbm, &out->hbm);
   model_free(theirs);
   if (st == HC_OK && !(out->X = calloc((size_t)hbm_n_coefficients(out->hbm), sizeof *out->X))) st = HC_NO_MEMORY;
@@ -160,7 +159,7 @@ bool verify_reading(int i, const verify_quantity *asked, verify_quantity *out, v
 }
 
 /* Every reading of the motion. */
-static verify_solution read_all(const verify_quantity *asked, verify_motion motion)
+static verify_solution read_motion(const verify_quantity *asked, verify_motion motion)
 {
   verify_solution s;
   verify_motion_find_rates(&motion);
@@ -184,7 +183,7 @@ static bool same_motion(const verify_solutions *s, int k, const double *x)
 }
 
 /* The solution p->X, measured, among those at the omega that began with number `from`; not twice. */
-static hc_status add(verify_solutions *s, problem *p, const verify_places *at, double omega, int from)
+static hc_status solutions_add(verify_solutions *s, problem *p, const verify_places *at, double omega, int from)
 {
   verify_solution *of = growing(s->of, s->count, (size_t)s->n_responses * sizeof *of);
   if (of) s->of = of;
@@ -203,7 +202,7 @@ static hc_status add(verify_solutions *s, problem *p, const verify_places *at, d
     if (hbm_response(p->hbm, omega, p->X, r, p->series) != HC_OK) return HC_OK;
     p->series[0] += p->offset[r];
     of[s->count * s->n_responses + r] =
-        read_all(&at->asked[r], verify_motion_of(omega, hbm_n_harmonics(p->hbm), p->series));
+        read_motion(&at->asked[r], verify_motion_of(omega, hbm_n_harmonics(p->hbm), p->series));
   }
   ++s->count;
   return HC_OK;
@@ -223,14 +222,14 @@ void verify_solutions_move(verify_solutions *s, const verify_places *at, const m
         for (int c = 0; c < coefficients; ++c)
           series[c] = relative ? dot_product(dofs, row, x + c * dofs) - x[c * dofs + dof] : x[c * dofs + dof];
         const verify_motion motion = verify_motion_of(at->omega[i], coefficients / 2, series);
-        s->of[k * s->n_responses + r] = read_all(&at->asked[r], motion);
+        s->of[k * s->n_responses + r] = read_motion(&at->asked[r], motion);
       }
     }
 }
 
 /* The equations, and no solutions of them yet. The problem is the caller's to clear. */
-static hc_status start(const compare_setup *setup, const verify_equations *e, const verify_places *at, problem *p,
-                       verify_solutions *s)
+static hc_status solutions_start(const compare_setup *setup, const verify_equations *e, const verify_places *at,
+                                 problem *p, verify_solutions *s)
 {
   hc_status st = problem_new(setup, e, p);
   *s = (verify_solutions){.n = at->n,
@@ -248,7 +247,7 @@ hc_status verify_solutions_of(const compare_setup *setup, const verify_equations
   problem p;
   hbm_curve own = {0};
   const hbm_curve *known = known_curve(at, setup->model, e), *curve = known ? known : &own;
-  hc_status st = start(setup, e, at, &p, out);
+  hc_status st = solutions_start(setup, e, at, &p, out);
   if (st == HC_OK && !known) st = hbm_trace_all(p.hbm, at->from, at->to, monitor, &own);
   if (st != HC_INTERRUPTED && st != HC_NO_MEMORY && p.hbm) st = HC_OK; /* as far as it came */
   for (int i = 0; i < at->n && st == HC_OK; ++i) {
@@ -256,7 +255,7 @@ hc_status verify_solutions_of(const compare_setup *setup, const verify_equations
     if (asked_at(at, i) && hbm_curve_at(p.hbm, curve, at->omega[i], &there) == HC_NO_MEMORY) st = HC_NO_MEMORY;
     for (int k = 0; k < there.n && st == HC_OK; ++k) {
       memcpy(p.X, there.X + (size_t)k * there.n_coef, (size_t)there.n_coef * sizeof *p.X);
-      st = add(out, &p, at, at->omega[i], out->first[i]);
+      st = solutions_add(out, &p, at, at->omega[i], out->first[i]);
     }
     out->first[i + 1] = out->count;
     hbm_curve_free(&there);
@@ -279,7 +278,7 @@ static hc_status solve_from(verify_solutions *s, problem *p, const verify_places
   for (int c = 0; c < both && factor; ++c) guess[c] *= factor[c % p->dofs];
   hbm_guess_of(p->hbm, guess, p->X);
   hc_status st = hbm_solve_roughly(p->hbm, at->omega[i], p->X, &point);
-  if (st == HC_OK) return add(s, p, at, at->omega[i], s->first[i]);
+  if (st == HC_OK) return solutions_add(s, p, at, at->omega[i], s->first[i]);
   return st == HC_NO_MEMORY ? st : HC_OK;
 }
 
@@ -321,7 +320,7 @@ hc_status verify_solutions_near(const compare_setup *setup, const verify_equatio
                                 const verify_places *at, verify_solutions *out)
 {
   problem p;
-  hc_status st = start(setup, e, at, &p, out);
+  hc_status st = solutions_start(setup, e, at, &p, out);
   const size_t dofs = (size_t)setup->model->n;
   double *guess = malloc(((size_t)out->length + dofs) * sizeof *guess), *factor = guess ? guess + out->length : NULL;
   if (!guess) st = HC_NO_MEMORY;

@@ -22,7 +22,7 @@ typedef struct spoiling {
   double warp;             /* [1] relative, 0 at the first omega and this much at the last: nobody's mistake */
   void (*change)(scene *); /* of the model's numbers */
   bool odd_only, turned;
-  int slider; /* hbm_restart of a sampled force, if not slider_on_sample */
+  const slider_rule *slider; /* of a sampled force, if not slider_on_sample; NULL: our own */
 } spoiling;
 
 static inline scene curve_scene(const char *path)
@@ -35,14 +35,17 @@ static inline scene curve_scene(const char *path)
 
 static inline scene curve_spoil(const scene *sc, const spoiling *how)
 {
+  static verify_mistakes wrong; /* until the next curve */
   scene own = *sc;
-  own.hbm.keep_mean = !how->no_static;
+  own.hbm.restart = HBM_RESTART_INTERPOLATED;
+  wrong = (verify_mistakes){.slider = how->slider_on_sample ? &verify_on_sample : how->slider,
+                            .odd_only = how->odd_only,
+                            .turned = how->turned};
+  verify_plug_in(&wrong, &own.hbm);
+  own.hbm.keep_mean = !how->no_static && !how->odd_only;
   if (how->harmonics) own.hbm.harmonics = how->harmonics;
   own.hbm.force = how->samples ? HBM_FORCE_SAMPLED : HBM_FORCE_EXACT;
   if (how->samples) own.hbm.samples = how->samples;
-  own.hbm.restart = how->slider_on_sample ? HBM_RESTART_SAMPLE : (hbm_restart)how->slider;
-  own.hbm.mistakes.odd_only = how->odd_only;
-  own.hbm.mistakes.turned = how->turned;
   if (how->change) how->change(&own);
   if (how->no_contact) own.n_contacts = 0;
   return own;

@@ -149,7 +149,7 @@ static void numbers_of_another_model(CHECK_STATE)
       {"odd harmonics", ON_CASE2, .cause = "odd_harmonics_only", .how = {.odd_only = true}},
       {"-T", ON_CASE2, .cause = "friction_sign", .how = {.turned = true}},
       {"-T", ON_PRELOADED, .cause = "friction_sign", .how = {.turned = true}},
-      {"one pass", ON_CASE2, .cause = "single_pass", .how = {.samples = 512, .slider = HBM_RESTART_ONE_PASS}},
+      {"one pass", ON_CASE2, .cause = "single_pass", .how = {.samples = 512, .slider = &verify_once}},
   };
   NAME_ALL(list);
 }
