@@ -3,8 +3,9 @@
 
 #include "model/casefile/case_file.h"
 #include "tests/check.h"
+#include "tests/oscillator.h"
 
-/* The case of that name below cases/, with assignments; case_clear in the end. */
+/* The case of that name below cases/, with assignments; case_clear it, or keep it to the end of the program. */
 static inline scene case_scene(const char *name, int n_set, const char *const *set)
 {
   char path[256];
@@ -12,5 +13,5 @@ static inline scene case_scene(const char *name, int n_set, const char *const *s
   case_error err;
   snprintf(path, sizeof path, SOURCE_DIR "/cases/%s.yaml", name);
   if (case_read(path, n_set, set, &sc, &err) != HC_OK) fail_msg("%s", err.message);
-  return sc;
+  return scene_kept(sc);
 }

@@ -24,11 +24,13 @@ static inline double scene_stuck_stiffness(const scene_contact *c)
  * model_free. */
 static inline model *scene_split_model(const scene *sc, int n)
 {
-  assert_int_equal(sc->n_contacts, 1);
-  CHECK_MADE(model, m, model_oscillator(sc->mass, sc->damping, sc->stiffness, sc->force, n, &m));
+  assert_int_equal(sc->structure->n_contacts, 1);
+  CHECK_MADE(model, m,
+             model_oscillator(*sc->structure->mass.v, *sc->structure->damping.v, *sc->structure->stiffness.v,
+                              sc->structure->loads->amplitude, n, &m));
   for (int j = 0; j < n; ++j) {
-    m->contacts[j].law = sc->contacts[0].law;
-    scene_direction(&sc->contacts[0], m->contacts[j].tangent, m->contacts[j].normal);
+    m->contacts[j].law = sc->structure->contacts[0].given.law;
+    scene_direction(&sc->structure->contacts[0].given, m->contacts[j].tangent, m->contacts[j].normal);
     m->contacts[j].law.kt /= n;
     m->contacts[j].law.kn /= n;
   }

@@ -137,22 +137,23 @@ static scene_contact contact_at(const double *p)
 }
 
 /* A cubic spring as stiff as the linear one at the motion x, and next to nothing of that one: in the place of the last
- * contact, or beside the only one. */
-static void weaken(uint64_t *random, double x, scene *sc)
+ * contact, or beside the only one. false: out of memory. */
+static bool weaken(uint64_t *random, double x, scene_structure *s)
 {
-  if (sc->n_contacts == 1) ++sc->n_contacts;
-  scene_contact *c = &sc->contacts[sc->n_contacts - 1];
+  if (s->n_contacts == 1 && !structure_add_contact(s)) return false;
+  scene_contact *c = &s->contacts[s->n_contacts - 1].given;
   field_contact_defaults(c);
   c->kind = CONTACT_POLYNOMIAL;
   c->law = (contact){0};
-  c->law.power[3 - CONTACT_LEAST_POWER] = sc->stiffness / (x * x);
-  sc->stiffness *= stress_scenes_weak(random);
+  c->law.power[3 - CONTACT_LEAST_POWER] = *s->stiffness.v / (x * x);
+  *s->stiffness.v *= stress_scenes_weak(random);
+  return true;
 }
 
 /* In the place of all contacts two stops as stiff as the first, at its gap on either side. */
-static void face(scene *sc)
+static void face(scene_structure *s)
 {
-  scene_contact *c = &sc->contacts[0];
+  scene_contact *c = &s->contacts[0].given;
   const double gap = fmax(fabs(c->law.gap), 1e-3), stop = gap + 1, force = c->law.kn;
   const double points[4][2] = {{-stop, -force}, {-gap, 0}, {gap, 0}, {stop, force}};
   field_contact_defaults(c);
@@ -160,22 +161,28 @@ static void face(scene *sc)
   c->kind = SCENE_LAW_TABLE;
   c->n_points = 4;
   memcpy(c->points, points, sizeof points);
-  memset(c + 1, 0, (size_t)(sc->n_contacts - 1) * sizeof *c);
-  sc->n_contacts = 1;
+  while (s->n_contacts > 1) structure_drop_contact(s, s->n_contacts - 1);
+}
+
+/* [force/length] without contacts. */
+static double dynamic_stiffness(const scene_structure *s, double omega)
+{
+  return hypot(*s->stiffness.v - *s->mass.v * omega * omega, *s->damping.v * omega);
 }
 
 /* The force that moves the mass without contacts by about the first gap, or from all of the range. */
-static double force_at(const double *p, const scene *sc, double omega)
+static double force_at(const double *p, const scene_structure *s, double omega)
 {
   if (p[FORCE_WAY] < 1.0 / 3) return geometric(p[FORCE], 1e-6, 1e6);
-  double reach = fmax(fabs(sc->contacts[0].law.gap), 1e-3) * geometric(p[FORCE], 0.2, 50);
-  double f = reach * hypot(sc->stiffness - sc->mass * omega * omega, sc->damping * omega);
+  double reach = fmax(fabs(s->contacts[0].given.law.gap), 1e-3) * geometric(p[FORCE], 0.2, 50);
+  double f = reach * dynamic_stiffness(s, omega);
   return fmin(fmax(f, 1e-6), 1e6);
 }
 
 static double frequency(const double *p, const scene *sc)
 {
-  double low = sqrt(sc->stiffness / sc->mass), high = sqrt(scene_max_stiffness(sc) / sc->mass);
+  const double mass = *sc->structure->mass.v;
+  double low = sqrt(*sc->structure->stiffness.v / mass), high = sqrt(scene_max_stiffness(sc) / mass);
   double between = fmin(fmax(1.5 * p[PLACE] - 0.25, 0), 1); /* a sixth of all at either end */
   double omega = low * pow(high / low, between) * geometric(p[BESIDE], 0.4, 2.5);
   return fmax(omega, high / MOST_OSCILLATIONS);
@@ -189,18 +196,24 @@ hc_status stress_scenes_at(stress_scenes *s, long index, scene *out)
   scene sc;
   field_defaults(&sc);
   snprintf(sc.title, sizeof sc.title, "Stress scene %ld of seed %lu", index, s->seed);
-  sc.mass = geometric(p[MASS], 1e-3, 1e3);
-  sc.stiffness = geometric(p[STIFFNESS], 1, 1e6);
+  const double mass = geometric(p[MASS], 1e-3, 1e3), stiffness = geometric(p[STIFFNESS], 1, 1e6);
   double ratio = p[DAMPING] < special ? 0 : geometric(beyond(p[DAMPING]), 1e-5, 0.5);
-  sc.damping = 2 * ratio * sqrt(sc.mass * sc.stiffness);
-  sc.n_contacts = 1 + (int)(MOST_CONTACTS * p[CONTACTS]);
-  for (int j = 0; j < sc.n_contacts; ++j) sc.contacts[j] = contact_at(p + CONTACT + j * PER_CONTACT);
+  scene_structure *t = sc.structure = structure_new_oscillator(mass, 2 * ratio * sqrt(mass * stiffness), stiffness, 0);
+  const int n_contacts = 1 + (int)(MOST_CONTACTS * p[CONTACTS]);
+  bool failed = !t;
+  for (int j = 0; j < n_contacts && !failed; ++j) {
+    structure_contact *c = structure_add_contact(t);
+    failed = !c;
+    if (c) c->given = contact_at(p + CONTACT + j * PER_CONTACT);
+  }
+  if (failed) return structure_free(t), HC_NO_MEMORY;
   double omega = frequency(p, &sc);
-  sc.force = force_at(p, &sc, omega);
+  t->loads->amplitude = force_at(p, t, omega);
   uint64_t random;
   const bool cubic = stress_scenes_cubic(s, index, &random);
-  if (cubic) weaken(&random, sc.force / hypot(sc.stiffness - sc.mass * omega * omega, sc.damping * omega), &sc);
-  if (!cubic && stress_scenes_facing(s, index, &random)) face(&sc);
+  if (cubic && !weaken(&random, t->loads->amplitude / dynamic_stiffness(t, omega), t))
+    return structure_free(t), HC_NO_MEMORY;
+  if (!cubic && stress_scenes_facing(s, index, &random)) face(t);
   sc.compare.omega = (number_list){1, {omega}};
   sc.hbm.harmonics = (int)geometric(p[HARMONICS], 1, 50.999);
   sc.hbm.samples = (int)geometric(p[SAMPLES], 16, 16384.999);

@@ -21,7 +21,7 @@ static bool copy(shrinker *s, const scene *sc, scene *out)
 {
   *out = *sc;
   if (s->status != HC_OK) return false;
-  if (sc->structure && !(out->structure = structure_copy(sc->structure))) s->status = HC_NO_MEMORY;
+  if (!(out->structure = structure_copy(sc->structure))) s->status = HC_NO_MEMORY;
   return s->status == HC_OK;
 }
 
@@ -29,10 +29,10 @@ static bool copy(shrinker *s, const scene *sc, scene *out)
 static bool take(shrinker *s, scene *sc, scene *smaller)
 {
   const scene_structure *t = smaller->structure;
-  double *x = t ? malloc((size_t)t->n * sizeof *x) : NULL;
+  double *x = malloc((size_t)t->n * sizeof *x);
   bool finds = false, adrift = false;
   stress_result r;
-  if (t && s->status == HC_OK) s->status = x ? structure_free_motion(t, false, x, &adrift) : HC_NO_MEMORY;
+  if (!t->is_oscillator && s->status == HC_OK) s->status = x ? structure_free_motion(t, false, x, &adrift) : HC_NO_MEMORY;
   free(x);
   if (s->status == HC_OK && !adrift) {
     s->status = stress_scene(smaller, s->kind, s->seconds, s->monitor, &r);
@@ -52,17 +52,30 @@ static double rounded(double x, int digits)
   return number_read(text, strlen(text), &x) == NUMBER_FINE ? x : 0;
 }
 
-/* One number at a time: with 1 digit, else with 2, 3. `spread`: a frequency, which the sweep goes along with. */
-static void round_number(shrinker *s, scene *sc, double *number, bool frequency)
+enum { FREQUENCY, OF_OSCILLATOR = 5, OF_CONTACT = 5 };
+
+/* Number k of an oscillator's scene, the frequency first; NULL past the last one. */
+static double *number_of(scene *sc, int k)
 {
-  const double full = *number;
+  scene_structure *t = sc->structure;
+  double *const own[OF_OSCILLATOR] = {sc->compare.omega.v, t->mass.v, t->damping.v, t->stiffness.v,
+                                      &t->loads->amplitude};
+  if (k < OF_OSCILLATOR) return own[k];
+  if (k >= OF_OSCILLATOR + OF_CONTACT * t->n_contacts) return NULL;
+  scene_contact *c = &t->contacts[(k - OF_OSCILLATOR) / OF_CONTACT].given;
+  double *const its[OF_CONTACT] = {&c->law.kn, &c->law.kt, &c->law.mu, &c->law.gap, &c->angle_deg};
+  return its[(k - OF_OSCILLATOR) % OF_CONTACT];
+}
+
+/* One number at a time: with 1 digit, else with 2, 3. The sweep goes along with the frequency. */
+static void round_number(shrinker *s, scene *sc, int k)
+{
+  const double full = *number_of(sc, k);
+  scene smaller;
   for (int digits = 1; digits <= 3; ++digits) {
-    const scene before = *sc;
-    *number = rounded(full, digits);
-    if (*number == full) return;
-    if (frequency) sc->omega_from = 0.8 * *number, sc->omega_to = 1.2 * *number;
-    scene smaller = *sc;
-    *sc = before;
+    if (rounded(full, digits) == full || !copy(s, sc, &smaller)) return;
+    const double number = *number_of(&smaller, k) = rounded(full, digits);
+    if (k == FREQUENCY) smaller.omega_from = 0.8 * number, smaller.omega_to = 1.2 * number;
     if (take(s, sc, &smaller)) return;
   }
 }
@@ -86,21 +99,13 @@ static void drop_parts(shrinker *s, scene *sc, const part *p)
   }
 }
 
-static int count_contacts(const scene *sc) { return sc->structure ? sc->structure->n_contacts : sc->n_contacts; }
-static int count_loads(const scene *sc) { return sc->structure ? sc->structure->n_loads : 0; }
-static int count_dofs(const scene *sc) { return sc->structure ? sc->structure->n : 0; }
-static int count_tangents(const scene *sc) { return sc->structure ? sc->structure->n_contacts : 0; }
+static int count_contacts(const scene *sc) { return sc->structure->n_contacts; }
+static int count_loads(const scene *sc) { return sc->structure->n_loads; }
+static int count_dofs(const scene *sc) { return sc->structure->n; }
 
 static bool drop_contact(scene *sc, int j)
 {
-  scene_structure *t = sc->structure;
-  if (t) {
-    free(t->contacts[j].tangent); /* with the others behind it */
-    t->contacts[j] = t->contacts[--t->n_contacts];
-  } else {
-    --sc->n_contacts;
-    for (int k = j; k < sc->n_contacts; ++k) sc->contacts[k] = sc->contacts[k + 1];
-  }
+  structure_drop_contact(sc->structure, j);
   return true;
 }
 
@@ -186,21 +191,12 @@ static void fewer_harmonics(shrinker *s, scene *sc)
 hc_status stress_shrink(scene *sc, stress_kind kind, double seconds, const hc_monitor *monitor)
 {
   static const part parts[] = {{count_contacts, 1, drop_contact},
-                               {count_tangents, 0, drop_second_tangent},
+                               {count_contacts, 0, drop_second_tangent},
                                {count_loads, 1, drop_load},
                                {count_dofs, 1, hold_dof}};
   shrinker s = {kind, seconds, monitor, HC_OK};
   for (size_t i = 0; i < sizeof parts / sizeof *parts; ++i) drop_parts(&s, sc, &parts[i]);
   fewer_harmonics(&s, sc);
-  if (!sc->structure) {
-    round_number(&s, sc, &sc->compare.omega.v[0], true);
-    double *const own[] = {&sc->mass, &sc->damping, &sc->stiffness, &sc->force};
-    for (int i = 0; i < 4; ++i) round_number(&s, sc, own[i], false);
-    for (int j = 0; j < sc->n_contacts; ++j) {
-      scene_contact *c = &sc->contacts[j];
-      double *const its[] = {&c->law.kn, &c->law.kt, &c->law.mu, &c->law.gap, &c->angle_deg};
-      for (int i = 0; i < 5; ++i) round_number(&s, sc, its[i], false);
-    }
-  }
+  for (int k = 0; scene_is_oscillator(sc) && number_of(sc, k); ++k) round_number(&s, sc, k);
   return s.status;
 }

@@ -21,7 +21,7 @@ rows_kind study_rows(const study *s)
 
 unsigned study_extra_columns(const study *s)
 {
-  return (study_in_cycles(s) ? ROWS_IN_CYCLES : 0u) | (s->base.structure ? ROWS_RESPONSES : 0u);
+  return (study_in_cycles(s) ? ROWS_IN_CYCLES : 0u) | (!scene_is_oscillator(&s->base) ? ROWS_RESPONSES : 0u);
 }
 
 /* The first failure is the one that is reported. omega <= 0: it is of no single frequency. */
@@ -51,7 +51,7 @@ static void put_curve(study_result *r, const response_summary *summary)
 /* Name of response i into text[RESPONSE_NAME], as the column `response` has it; an oscillator's has none. */
 static void name_response(const scene *sc, int i, char *text)
 {
-  if (sc->structure) structure_response_name(sc->structure, i, text, RESPONSE_NAME);
+  if (!scene_is_oscillator(sc)) structure_response_name(sc->structure, i, text, RESPONSE_NAME);
 }
 
 static hc_status put_solutions(hbm_solver *s, const scene *sc, const hbm_curve *curve, study_result *r)
@@ -59,12 +59,12 @@ static hc_status put_solutions(hbm_solver *s, const scene *sc, const hbm_curve *
   hbm_curve found = {0};
   double failed_at = 0;
   hc_status at = response_at(s, curve, &sc->compare.omega, &found, &failed_at);
-  hc_status st = make_rows(r, ROWS_FRF, found.n * (sc->structure ? structure_response_count(sc->structure) : 1));
+  hc_status st = make_rows(r, ROWS_FRF, found.n * structure_response_count(sc->structure));
   if (at == HC_NO_MEMORY) st = at; /* says nothing about the scene: it is not kept */
   else if (at != HC_OK) fail_with(r, "no solution", at, failed_at);
   for (int k = 0; k < found.n && st == HC_OK; ++k) {
     /* A row for each response of solution k. */
-    const int n = sc->structure ? structure_response_count(sc->structure) : 1;
+    const int n = structure_response_count(sc->structure);
     response_row row;
     hc_status one = response_row_of(s, &found, k, &row);
     for (int i = 0; i < n && one == HC_OK; ++i) {

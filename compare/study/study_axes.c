@@ -89,12 +89,22 @@ static hc_status read_range(study_reader *q, const char *path, const field *f, c
   return yaml_refuse(&q->r, node, "`%s` %s", path, fault);
 }
 
+/* The field as if what it is in began with it: a value can be tried before there is anything to store it in. */
+static field alone(const field *f)
+{
+  field own = *f;
+  own.offset = own.in_cycles = 0;
+  own.flags &= ~(unsigned)FIELD_OSCILLATOR;
+  return own;
+}
+
 /* Value i as text, held against its field. Integers forgive the rounding of a log range. */
 static hc_status range_value(study_reader *q, const study_field *sf, const range *g, int i, const yaml_node_t *node,
                              study_value *out)
 {
   char text[NUMBER_TEXT], words[256];
-  scene scratch; /* as room for a value of a contact or structure, too: its place in those is inside this */
+  number_list tried; /* room for any value */
+  const field f = alone(sf->f);
   message why;
   int bad;
   double x = range_at(g, i);
@@ -102,7 +112,7 @@ static hc_status range_value(study_reader *q, const study_field *sf, const range
   number_write(x, text);
   field_value v = {.n = 1, .item[0] = {.text = text, .length = strlen(text)}};
   message_start(&why, words, sizeof words);
-  if (!field_store(sf->f, &scratch, &v, &why, &bad))
+  if (!field_store(&f, &tried, &v, &why, &bad))
     return yaml_refuse(&q->r, node, "%s%s (value %d of %d of the range)", sf->path, why.text, i + 1, g->count);
   *out = (study_value){strdup(text), node->start_mark.line + 1, node->start_mark.column + 1};
   return out->text ? HC_OK : case_out_of_memory(&q->r);
@@ -137,8 +147,9 @@ static char *canonical(study_reader *q, const field *f, const yaml_node_t *node)
 
 static hc_status list_value(study_reader *q, const study_field *sf, const yaml_node_t *node, study_value *out)
 {
-  scene scratch; /* as in range_value */
-  hc_status st = yaml_scene_value(&q->r, sf->f, sf->contact, &scratch, node);
+  number_list tried; /* room for any value */
+  const field f = alone(sf->f);
+  hc_status st = yaml_scene_value(&q->r, &f, sf->contact, &tried, node);
   if (st != HC_OK) return st;
   *out = (study_value){canonical(q, sf->f, node), node->start_mark.line + 1, node->start_mark.column + 1};
   return out->text ? HC_OK : case_out_of_memory(&q->r);

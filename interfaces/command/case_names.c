@@ -6,8 +6,7 @@ enum { MOST_LISTED = 12 };
 /* Response r in full; the column shows its first RESPONSE_NAME - 1 letters. */
 static const char *response_name(const cli_common *common, int r, char text[CLI_NAME])
 {
-  const scene_structure *s = common->scene->structure;
-  return s ? structure_response_name(s, r, text, CLI_NAME) : "x";
+  return structure_response_name(common->scene->structure, r, text, CLI_NAME);
 }
 
 const char *cli_contact_name(const cli_common *common, int j, char text[CLI_NAME])
@@ -65,14 +64,14 @@ static int response_spelt(const scene_structure *s, const char *name)
 int cli_response_named(const cli_common *common, const char *name)
 {
   const scene *sc = common->scene;
-  const int n = sc->structure ? structure_response_count(sc->structure) : 1;
+  const int n = structure_response_count(sc->structure);
   char full[CLI_NAME], shown[RESPONSE_NAME];
   for (int r = 0; r < n; ++r) {
     if (!strcmp(response_name(common, r, full), name)) return r;
     snprintf(shown, sizeof shown, "%.*s", RESPONSE_NAME - 1, full);
     if (!strcmp(shown, name)) return r;
   }
-  const int spelt = sc->structure ? response_spelt(sc->structure, name) : -1;
+  const int spelt = response_spelt(sc->structure, name);
   if (spelt >= 0) return spelt;
   say_unknown(common, "response", name, n, response_name);
   return -1;
@@ -82,14 +81,14 @@ int cli_keep_response(const cli_common *common, scene *sc, const char *name)
 {
   const int r = name ? cli_response_named(common, name) : 0;
   if (r < 0) return EXIT_USAGE;
-  if (name && sc->structure) structure_keep_response(sc->structure, r);
+  if (name) structure_keep_response(sc->structure, r);
   return 0;
 }
 
 hc_status cli_response_names(const scene *sc, char (**out)[RESPONSE_NAME])
 {
   *out = NULL;
-  if (!sc->structure) return HC_OK;
+  if (scene_is_oscillator(sc)) return HC_OK;
   const int n = structure_response_count(sc->structure);
   *out = calloc((size_t)n, sizeof **out);
   for (int r = 0; r < n && *out; ++r) structure_response_name(sc->structure, r, (*out)[r], RESPONSE_NAME);
@@ -100,7 +99,7 @@ int cli_contact_named(const cli_common *common, const char *name)
 {
   const scene *sc = common->scene;
   const int n = scene_contact_count(sc);
-  int j = sc->structure ? structure_contact_named(sc->structure, name, strlen(name)) : -1;
+  int j = structure_contact_named(sc->structure, name, strlen(name));
   if (j >= 0) return j;
   if (number_read_integer(name, strlen(name), &j) == NUMBER_FINE && j >= 0 && j < n) return j;
   say_unknown(common, "contact", name, n, cli_contact_name);

@@ -370,7 +370,7 @@ int cli_not_read(hc_status st, const case_error *err)
 
 void cli_say_notes(const cli_common *common, const scene *sc)
 {
-  if (sc->structure && sc->structure->notes && !common->quiet) fputs(sc->structure->notes, stderr);
+  if (sc->structure->notes && !common->quiet) fputs(sc->structure->notes, stderr);
 }
 
 int cli_load_case(cli_common *common, const char *path, scene *sc, case_error *err)
@@ -523,12 +523,12 @@ static const char *advice_for(const scene *sc, cli_solver solver, hc_status st, 
   const bool no_solution =
       st == HC_SINGULAR || st == HC_STALLED || st == HC_NOT_CONVERGED || st == HC_STEP_TOO_SMALL || st == HC_JUMPED;
   const bool failed_at_mean = solver == CLI_TRANSIENT ? st == HC_NOT_SETTLED : no_solution && sc->hbm.keep_mean;
-  if (failed_at_mean && sc->structure && advice_on_free_motion(sc->structure, text)) return text;
+  if (failed_at_mean && !scene_is_oscillator(sc) && advice_on_free_motion(sc->structure, text)) return text;
   if (failed_at_mean && scene_adrift(sc)) return snprintf(text, ADVICE_TEXT, "%s", SCENE_ADRIFT), text;
-  if (solver == CLI_TRANSIENT && st == HC_NOT_SETTLED && sc->structure && advice_on_undamped_mode(sc, text))
+  if (solver == CLI_TRANSIENT && st == HC_NOT_SETTLED && !scene_is_oscillator(sc) && advice_on_undamped_mode(sc, text))
     return text;
   if (st == HC_NOT_FINITE) /* of neither side's settings */
-    return snprintf(text, ADVICE_TEXT, "%s", sc->structure ? ADVICE_ON_STRUCTURE : advice_on_size(sc->damping)), text;
+    return snprintf(text, ADVICE_TEXT, "%s", !scene_is_oscillator(sc) ? ADVICE_ON_STRUCTURE : advice_on_size(*sc->structure->damping.v)), text;
   if (solver != CLI_TRANSIENT) advice_for_hbm(&sc->hbm, st, text);
   if (solver == CLI_HBM || !*advice_for_transient(&sc->transient, st, other)) return text;
   snprintf(text, ADVICE_TEXT, "%s",
@@ -566,7 +566,7 @@ bool cli_it_creeps(const scene *sc, double omega, const hc_monitor *monitor, cha
   hc_status st = scene_setup(sc, &setup);
   if (st == HC_OK) st = steady_state_creeps(&setup, omega, monitor, &response, drift);
   scene_setup_clear(&setup);
-  if (st == HC_CREEPS && sc->structure) structure_response_name(sc->structure, response, name, RESPONSE_NAME);
+  if (st == HC_CREEPS && !scene_is_oscillator(sc)) structure_response_name(sc->structure, response, name, RESPONSE_NAME);
   return st == HC_CREEPS;
 }
 
@@ -617,7 +617,7 @@ table *cli_own_table(const char *title, unsigned extra, int n, const table_colum
 
 unsigned cli_extra_columns(const scene *sc)
 {
-  return (sc->in_cycles ? ROWS_IN_CYCLES : 0u) | (sc->structure ? ROWS_RESPONSES : 0u);
+  return (sc->in_cycles ? ROWS_IN_CYCLES : 0u) | (!scene_is_oscillator(sc) ? ROWS_RESPONSES : 0u);
 }
 
 /* What of a case its rows of that kind have: those of whole curves have no response. */

@@ -152,7 +152,7 @@ static hc_status compare_tables(const cli_common *common, const compare_setup *s
   for (int i = 0; i < a->n_rows; ++i) cli_put_row(common, out[0], ROWS_ACCURACY, &a->rows[i]);
   table *t = out[0];
   char of[RESPONSE_NAME];
-  if (common->scene->structure)
+  if (!scene_is_oscillator(common->scene))
     table_note(t, "by the response %s", structure_response_name(common->scene->structure, 0, of, sizeof of));
   table_note(
       t,
@@ -203,7 +203,7 @@ static void put_rows(const cli_common *common, comparison *c, table *t)
 {
   const scene_structure *of = common->scene->structure;
   for (int i = table_rows(t); i < c->n_rows; ++i) {
-    if (of) structure_response_name(of, c->rows[i].response, c->rows[i].response_name, RESPONSE_NAME);
+    if (!of->is_oscillator) structure_response_name(of, c->rows[i].response, c->rows[i].response_name, RESPONSE_NAME);
     cli_put_row(common, t, ROWS_COMPARE, &c->rows[i]);
   }
 }

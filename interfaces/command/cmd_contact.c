@@ -67,7 +67,7 @@ static int choose_contact(const cli_common *common, const contact_options *own, 
   const scene *sc = common->scene;
   const bool own_motion = own->motion[CONTACT_U] || own->motion[CONTACT_U2] || own->motion[CONTACT_V];
   const bool by_itself = own_motion || own->slider;
-  const int n = sc->structure ? sc->structure->n : 1;
+  const int n = sc->structure->n;
   m->one = -1;
   if (own->contact && (m->one = cli_contact_named(common, own->contact)) < 0) return EXIT_USAGE;
   if (m->one < 0 && (by_itself || n > 1) && scene_contact_count(sc) == 1) m->one = 0;
@@ -152,6 +152,17 @@ static hc_status take_contacts(const model *of, contact_motion *m)
   return HC_OK;
 }
 
+/* The model of an oscillator whose one contact is that table. */
+static hc_status table_alone(const scene_contact *given, model **out)
+{
+  scene_structure *s = structure_new_oscillator(1, 0, 0, 0);
+  structure_contact *c = s ? structure_add_contact(s) : NULL;
+  if (c) c->given = *given;
+  const hc_status st = c ? structure_model(s, out) : HC_NO_MEMORY;
+  structure_free(s);
+  return st;
+}
+
 /* The motion, of as many harmonics as it or the case has. 0 or the exit code; m->contacts is to be freed. */
 static int contact_motion_find(const cli_common *common, const contact_options *own, contact_motion *m)
 {
@@ -161,9 +172,7 @@ static int contact_motion_find(const cli_common *common, const contact_options *
   if (code) return code;
   const scene_contact *one = m->one < 0 ? NULL : scene_contact_at(sc, m->one);
   if (one && scene_contact_is_composed(one)) m->table = one;
-  scene alone = {.mass = 1, .n_contacts = 1};
-  if (m->table) alone.contacts[0] = *m->table;
-  hc_status st = scene_model(m->table ? &alone : sc, &of);
+  hc_status st = m->table ? table_alone(m->table, &of) : scene_model(sc, &of);
   m->in_model = m->one < 0 || m->table ? -1 : scene_model_contact(sc, m->one);
   if (st == HC_OK) st = take_contacts(of, m);
   if (st != HC_OK) code = cli_solver_failed(common, CLI_HBM, "the contact force", st, 0);

@@ -17,19 +17,10 @@
 
 /* ---- what the parts of a structure resolved to ----------------------------------------------------- */
 
-/* Does f say something of a structure, or of one of its loads or contacts? Then it has no place in the scene itself. */
-static bool describes_structure(const field *f)
-{
-  return f->flags & FIELD_STRUCTURE || f->flags & FIELD_IN_CONTACT || !strcmp(f->section, "oscillator") ||
-         !strcmp(f->section, "forcing");
-}
-
-/* How many values f has in the scene: of a list, one an entry; of a structure what is an oscillator's has none. */
+/* How many values f has in the scene: of a list, one an entry. */
 static int count_values(const scene *sc, const field *f)
 {
-  if (f->flags & FIELD_IN_CONTACT) return scene_contact_count(sc);
-  if (!sc->structure || !describes_structure(f)) return 1;
-  return f->flags & FIELD_IN_LOAD ? sc->structure->n_loads : f->flags & FIELD_STRUCTURE ? 1 : 0;
+  return f->flags & FIELD_IN_CONTACT ? scene_contact_count(sc) : f->flags & FIELD_IN_LOAD ? sc->structure->n_loads : 1;
 }
 
 /* ---- texts ---------------------------------------------------------------------------------------- */
@@ -73,6 +64,18 @@ static void write_of_load(const scene_structure *s, const field *f, const struct
 {
   if (!strcmp(f->name, "direction")) write_direction(s, load->direction, to);
   else if (f->kind != FIELD_PART) field_write(f, load, to);
+}
+
+/* Nothing where the field does not count; but an oscillator's contacts always name their law. */
+static void write_of_contact(const scene_structure *s, const field *f, const structure_contact *c, FILE *to)
+{
+  const bool without = !strcmp(f->name, "preload") && !(c->given.preload > 0);
+  const bool says_law = s->is_oscillator && !strcmp(f->name, "law");
+  if (!strcmp(f->name, "points")) case_write_points(&c->given, to);
+  else if (f->kind == FIELD_PART && f->size > 0) write_direction(s, field_direction(f, c), to);
+  else if (!strcmp(f->name, "name")) fputs(c->given.name, to);
+  else if (f->kind != FIELD_PART && !without && (says_law || case_contact_field_counts(s, c, f)))
+    field_write(f, &c->given, to);
 }
 
 /* ---- one value ------------------------------------------------------------------------------------- */
@@ -195,37 +198,25 @@ typedef struct described {
 /* A row for f, of entry j if it is one of a list's; without a value where the field does not count. HC_NO_MEMORY. */
 static hc_status put_value(table *t, const described *d, const field *f, int j)
 {
-  const bool part = d->sc->structure && describes_structure(f), in_contact = f->flags & FIELD_IN_CONTACT;
+  const scene_structure *s = d->sc->structure;
+  const structure_contact *c = f->flags & FIELD_IN_CONTACT ? &s->contacts[j] : NULL;
   char path[FIELD_PATH], *text = NULL;
   size_t size = 0;
-  if (!case_field_asked(f, d->asked) || (!part && f->flags & FIELD_STRUCTURE))
-    return HC_OK; /* an oscillator has none */
-  const scene_contact *own = in_contact ? scene_contact_at(d->sc, j) : NULL;
-  const bool points = own && !strcmp(f->name, "points"), is_law = own && !strcmp(f->name, "law");
-  if (own && (points ? !field_is_of_law(f, own) : !is_law && !field_is_echoed(f, own))) return HC_OK;
-  if (own && !strcmp(f->name, "coefficients")) return HC_OK; /* each has a row */
-  const case_place at = part ? place_of(d->sc->structure, f, j) : case_field_place(d->places, f, in_contact ? j : -1);
-  bool counts = part || points || is_law ||
-                (in_contact ? case_contact_field_counts(NULL, NULL, own, f) : case_field_counts(f, d->sc));
+  if (!case_field_asked(f, d->asked) || !field_is_of_case(f, d->sc)) return HC_OK;
+  if (c && !strcmp(f->name, "coefficients")) return HC_OK; /* each has a row */
+  if (c && !strcmp(f->name, "points") && !field_is_of_law(f, &c->given)) return HC_OK;
+  if (c && strcmp(f->name, "points") && strcmp(f->name, "law") && !field_is_echoed(f, &c->given)) return HC_OK;
+  const bool part = c || f->flags & FIELD_STRUCTURE, its_place = part && !s->is_oscillator;
+  const case_place at = its_place ? place_of(s, f, j) : case_field_place(d->places, f, c ? j : -1);
+  bool counts = part || case_field_counts(f, d->sc);
   FILE *to = open_memstream(&text, &size);
   /* The value of f as a case file has it, text without quotes; of entry j of a list. */
   if (to && counts) {
-    const scene_structure *s = d->sc->structure;
-    if (!s || !describes_structure(f)) {
-      const void *base = f->flags & FIELD_IN_CONTACT ? (const void *)&d->sc->contacts[j] : d->sc;
-      if (points) case_write_points(own, to);
-      else if (f->kind == FIELD_TEXT) fputs(field_look(f, base), to);
-      else field_write(f, base, to);
-    } else if (f->flags & FIELD_IN_LOAD) write_of_load(s, f, &s->loads[j], to);
-    else if (f->flags & FIELD_IN_CONTACT) {
-      const structure_contact *c = &s->contacts[j];
-      const bool without = !strcmp(f->name, "preload") && !(c->given.preload > 0);
-      if (points) case_write_points(own, to);
-      else if (f->kind == FIELD_PART && f->size > 0) write_direction(s, field_direction(f, c), to);
-      else if (!strcmp(f->name, "name")) fputs(c->given.name, to);
-      else if (f->kind != FIELD_PART && !without && case_contact_field_counts(s, c, own, f))
-        field_write(f, &c->given, to);
-    } else write_part(s, f, to);
+    if (c) write_of_contact(s, f, c, to);
+    else if (f->flags & FIELD_IN_LOAD) write_of_load(s, f, &s->loads[j], to);
+    else if (part) write_part(s, f, to);
+    else if (f->kind == FIELD_TEXT) fputs(field_look(f, d->sc), to);
+    else field_write(f, field_base(f, d->sc), to);
   }
   const bool written = to && fclose(to) == 0;
   counts = counts && (size > 0 || !part);
@@ -243,8 +234,8 @@ static hc_status put_derived(table *t, const scene *sc)
   case_derived all[CASE_DERIVED_MAX];
   int n = 0;
   hc_status st = HC_OK;
-  if (sc->structure) st = describe_structure_derive(sc, all, &n);
-  else n = case_derive(sc, all);
+  if (scene_is_oscillator(sc)) n = case_derive(sc, all);
+  else st = describe_structure_derive(sc, all, &n);
   for (const case_derived *d = all; d < all + n; ++d)
     TABLE_ROW(t, CELL(d->name), CELL(d->value), CELL(d->unit), CELL(d->meaning));
   return st;
@@ -279,7 +270,7 @@ static int describe_case(const cli_common *common, const char *path)
   case_places *places = malloc(sizeof *places);
   hc_status st = places ? case_read_placed(path, common->n_set, common->set, &sc, places, &err) : HC_NO_MEMORY;
   const described d = {&sc, places, common->arguments[0]};
-  cli_say_notes(common, &sc);
+  if (st == HC_OK) cli_say_notes(common, &sc);
   const int code = st == HC_OK ? write_values(common, &d) : cli_not_read(st, &err);
   case_clear(&sc);
   free(places);

@@ -71,7 +71,7 @@ static hc_status put_point(found_points *f, const hbm_curve *c, int k)
   hc_status st = response_row_of(f->s, c, k, &row);
   for (int r = f->of_case.first; r <= f->of_case.last && st == HC_OK; ++r) {
     if (r > 0) st = response_row_turn(f->s, c, k, r, &row);
-    if (of) structure_response_name(of, r, row.response, sizeof row.response);
+    if (!of->is_oscillator) structure_response_name(of, r, row.response, sizeof row.response);
     f->free |= row.measures.contact.free_sliders > 0;
     pthread_mutex_lock(&f->beside.found);
     cli_put_row(f->common, f->kept, ROWS_FRF, &row);
@@ -207,7 +207,7 @@ static hc_status note_specials(const cli_common *common, table *t, hbm_solver *s
   char amplitude[16 + RESPONSE_NAME] = "amplitude", name[RESPONSE_NAME];
   hbm_special *special;
   int n, changes = 0;
-  if (sc->structure)
+  if (!scene_is_oscillator(sc))
     snprintf(amplitude, sizeof amplitude, "amplitude of %s",
              structure_response_name(sc->structure, 0, name, sizeof name));
   if (!hbm_specials_follow_each(s))
@@ -239,7 +239,7 @@ static hc_status note_specials(const cli_common *common, table *t, hbm_solver *s
 static int run_frf(cli_common *common, void *given, scene *sc)
 {
   const frf_options *own = given;
-  plot_responses of_case = {0, sc->structure ? structure_response_count(sc->structure) - 1 : 0};
+  plot_responses of_case = {0, structure_response_count(sc->structure) - 1};
   if (own->response && (of_case.first = of_case.last = cli_response_named(common, own->response)) < 0)
     return EXIT_USAGE;
   if (!own->at.n) sc->compare.omega.n = 0; /* those of the case are for the comparison */

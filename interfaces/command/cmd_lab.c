@@ -83,7 +83,7 @@ static int run_lab(cli_common *common, void *given, scene *sc)
     return cli_failed(common, EXIT_USAGE, "--set changes a case: --case CASE was expected, too");
   int code = cli_check_files(common, !common->output, &(cli_file){"the page", path, CLI_OUTPUT});
   if (!code && own->case_file) code = cli_load_case(common, own->case_file, sc, &(case_error){{0}});
-  if (!code && own->case_file && sc->structure)
+  if (!code && own->case_file && !scene_is_oscillator(sc))
     code = cli_failed(common, EXIT_BAD_CASE,
                       "%s: structure: the lab has one degree of freedom, an `oscillator` was expected", own->case_file);
   if (!code && own->case_file && scene_base_moves(sc))

@@ -68,7 +68,7 @@ static int run_modes(cli_common *common, void *own, scene *sc)
       case_read_sparse(common->arguments[0], common->n_set, common->set, MATRIX_MOST_DENSE, sc, NULL, &err);
   if (read != HC_OK) return cli_not_read(read, &err);
   cli_say_notes(common, sc);
-  if (sc->structure && sc->structure->is_sparse) return run_large(common, count, sc);
+  if (sc->structure->is_sparse) return run_large(common, count, sc);
   table *tables[] = {table_new("Modes", CLI_COLUMNS(mode_columns)),
                      table_new("Contacts at rest", CLI_COLUMNS(contact_columns))};
   hc_status st = scene_model(sc, &m);
@@ -81,7 +81,7 @@ static int run_modes(cli_common *common, void *own, scene *sc)
       TABLE_ROW(t, CELL(i + 1), MODE_CELLS(open[i]), MODE_CELLS(stuck[i]));
     if (st == HC_OK && isnan(open[0].omega))
       table_note(t, "mode 1 is driven away with the contacts open: no frequency");
-    if (sc->structure && sc->structure->reduction_error > 0)
+    if (sc->structure->reduction_error > 0)
       table_note(t, "a reduced model: the relative error of its receptance is %.2g, at %g (structure.reduction)",
                  sc->structure->reduction_error, sc->structure->reduction_at);
     free(open);

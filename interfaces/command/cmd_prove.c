@@ -116,7 +116,7 @@ table *proofs_table(const cli_common *common, const proofs *p, hc_status st)
         "in %d row%s a slider that never slips was on the verge of it, and rests 2 %% of its room or more farther "
         "in: the mean is another's, and where the amplitude is too, HBM's error is left out",
         moved, moved == 1 ? "" : "s");
-  if (common->scene->structure)
+  if (!scene_is_oscillator(common->scene))
     table_note(t, "by the response %s", structure_response_name(common->scene->structure, 0, of, sizeof of));
   if (st != HC_OK) table_note(t, "INCOMPLETE: %s", hc_status_text(st));
   return t;

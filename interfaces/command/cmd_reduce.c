@@ -174,7 +174,7 @@ static int run_reduce(cli_common *common, void *own, scene *sc)
   common->scene = sc;
   const hc_status st = case_read_sparse(common->arguments[0], 0, NULL, 0, sc, &source, &err);
   int code = st == HC_OK ? 0 : cli_not_read(st, &err);
-  if (!code && !sc->structure) {
+  if (!code && scene_is_oscillator(sc)) {
     fprintf(stderr, "%s: an oscillator, expected `structure`, which can be reduced\n", common->arguments[0]);
     code = EXIT_BAD_CASE;
   }

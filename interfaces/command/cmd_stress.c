@@ -267,7 +267,7 @@ static int keep_finding(const stress_call *call, long index, stress_kind kind, c
     return cli_solver_failed(call->common, CLI_BOTH, "shrinking", st, 0);
   }
   snprintf(path, sizeof path, "%s/stress-%lu-%s%ld-%s.yaml", call->own->findings, call->own->plan.seed,
-           sc.structure ? "structure-" : "", index, stress_kind_name(kind));
+           !scene_is_oscillator(&sc) ? "structure-" : "", index, stress_kind_name(kind));
   snprintf(
       comment, sizeof comment,
       "# Found by hbmcheck stress%s --seed %lu --first %ld --scenes 1, and made smaller: %s.\n# It should hold that: "

@@ -103,9 +103,9 @@ static bool find_response(study_call *call, study_entry *entry)
   if (!call->own->response) return true;
   const scene_structure *of = entry->s->base.structure;
   call->common->scene = &entry->s->base;
-  if (!of && call->rank == 0)
+  if (of->is_oscillator && call->rank == 0)
     cli_message(call->common, "--response: %s has one degree of freedom, expected a structure", entry->s->name);
-  const int r = of ? cli_response_named(call->common, call->own->response) : -1;
+  const int r = !of->is_oscillator ? cli_response_named(call->common, call->own->response) : -1;
   if (r >= 0) structure_response_name(of, r, entry->response, sizeof entry->response);
   return r >= 0;
 }

@@ -57,7 +57,7 @@ static void put_rows(const cli_common *common, steady_states *found, int from, t
   const scene_structure *of = common->scene->structure;
   for (int i = from; i < found->n; ++i) {
     steady_row *r = &found->rows[i];
-    if (of) structure_response_name(of, r->response, r->response_name, RESPONSE_NAME);
+    if (!of->is_oscillator) structure_response_name(of, r->response, r->response_name, RESPONSE_NAME);
     if (r->status != HC_INTERRUPTED && r->stage == STEADY_TRANSIENT) cli_put_row(common, t, ROWS_TRANSIENT, r);
   }
 }

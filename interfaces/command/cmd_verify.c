@@ -56,7 +56,7 @@ static bool set_response(const cli_common *common, const char *name, verify_curv
 {
   const scene *sc = common->scene;
   out->response = name ? cli_response_named(common, name) : 0;
-  if (out->response >= 0 && sc->structure)
+  if (out->response >= 0 && !scene_is_oscillator(sc))
     structure_response_name(sc->structure, out->response, out->name, sizeof out->name);
   return out->response >= 0;
 }
@@ -222,7 +222,7 @@ static void note_verification(table *t, const scene *sc, const verify_data *data
                r->skipped);
   int open = 0;
   for (int i = 0; i < r->n_rows; ++i) open += r->rows[i].free_sliders && r->rows[i].verdict == VERDICT_DIFFERS;
-  if (open && sc->structure)
+  if (open && !scene_is_oscillator(sc))
     table_note(t,
                "%d points that differ are where a slider never slips: where it rests is a matter of history, and with "
                "several contacts or a varying normal force so is the motion; ours starts from w = 0",
@@ -245,7 +245,7 @@ static void note_verification(table *t, const scene *sc, const verify_data *data
 static int write_tables(const verify_call *call)
 {
   const scene *sc = call->sc;
-  const bool of_structure = sc->structure != NULL;
+  const bool of_structure = !scene_is_oscillator(sc);
   const unsigned extra = cli_extra_columns(sc);
   char words[VERIFY_TEXT], guess[VERIFY_TEXT], sentence[VERIFY_TEXT], name[VERIFY_QUANTITY_TEXT];
   table *points = cli_own_table("Points", extra, CLI_COLUMNS(columns)),
@@ -284,7 +284,7 @@ static int write_tables(const verify_call *call)
               CELL(r->count[VERDICT_DIFFERS]), CELL(r->count[VERDICT_UNSTABLE]), CELL(r->count[VERDICT_OTHER_BRANCH]),
               CELL(r->count[VERDICT_SOLVER_FAILED]), CELL(r->skipped), CELL(r->left_out), CELL(r->reversals),
               CELL(r->truth_distance), CELL(r->noise), CELL(verify_sentence(r, sentence)));
-    if (sc->structure) table_note(points, "response %s", response);
+    if (!scene_is_oscillator(sc)) table_note(points, "response %s", response);
     note_verification(points, sc, data, r);
   }
   table_spare(hypotheses, spare_hypothesis_columns);
@@ -307,7 +307,7 @@ static int read_curve(verify_call *call, double noise, int k)
   char words[VERIFY_TEXT];
   if (verify_columns_read(*curve->columns ? curve->columns : NULL, call->own->asked.quantity, &where, words) != HC_OK)
     return cli_failed(common, EXIT_USAGE, "%s", words);
-  where.response = call->sc->structure ? curve->name : NULL;
+  where.response = !scene_is_oscillator(call->sc) ? curve->name : NULL;
   hc_status st = verify_data_read(call->own->against, &where, data, words);
   data->noise = noise;
   data->response = curve->response;
@@ -316,7 +316,7 @@ static int read_curve(verify_call *call, double noise, int k)
     fprintf(stderr, "%s\n", words);
     return st == HC_NO_MEMORY ? EXIT_NO_SOLUTION : EXIT_BAD_CASE;
   }
-  const char *refused = call->sc->structure ? verify_quantity_refused_of_structure(&data->quantity) : NULL;
+  const char *refused = !scene_is_oscillator(call->sc) ? verify_quantity_refused_of_structure(&data->quantity) : NULL;
   if (refused) return cli_failed(common, EXIT_BAD_CASE, "%s", refused);
   if (call->own->asked.responses.n > 1 && !data->by_response)
     return cli_failed(common, EXIT_USAGE,

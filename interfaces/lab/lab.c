@@ -25,6 +25,7 @@ void lab_free(lab *l)
 {
   if (!l) return;
   drop_curves(l);
+  case_clear(&l->sc);
   free(l->values);
   free(l);
 }
@@ -36,11 +37,13 @@ static hc_status read_oscillator(const char *text, scene *sc, case_error *err)
   hc_status st = case_parse("case", text, strlen(text), 0, NULL, sc, err);
   if (st != HC_OK) return st;
   bool other_law = false;
-  for (int j = 0; j < sc->n_contacts; ++j)
-    other_law |= sc->contacts[j].kind > LAB_POLYNOMIAL && sc->contacts[j].kind != LAB_TABLE;
-  if (!sc->structure && !other_law && !scene_base_moves(sc)) return HC_OK;
+  for (int j = 0; j < scene_contact_count(sc); ++j) {
+    const int kind = scene_contact_at(sc, j)->kind;
+    other_law |= kind > LAB_POLYNOMIAL && kind != LAB_TABLE;
+  }
+  if (scene_is_oscillator(sc) && !other_law && !scene_base_moves(sc)) return HC_OK;
   snprintf(err->message, sizeof err->message, "case: %s",
-           sc->structure ? "structure: the lab has one degree of freedom, an `oscillator` was expected"
+           !scene_is_oscillator(sc) ? "structure: the lab has one degree of freedom, an `oscillator` was expected"
            : scene_base_moves(sc)
                ? "base: the lab has a force, `forcing` was expected"
                : "the lab has no fields for a contact's law, contact, polynomial or table were expected");
@@ -56,6 +59,7 @@ int lab_read(lab *l, const char *text)
   lab_begin(l, 0);
   if (st == HC_OK) {
     drop_curves(l);
+    case_clear(&l->sc);
     l->sc = sc;
     l->has_case = true;
     l->n_harm = 0;
@@ -71,11 +75,13 @@ int lab_case(lab *l)
   lab_begin(l, LAB_POINTS + 2 * SCENE_MOST_POINTS);
   if (!l->has_case) return lab_answer(l, HC_BAD_INPUT);
   const scene *sc = &l->sc;
+  const scene_structure *s = sc->structure;
   const hbm_settings *h = &sc->hbm;
-  hc_status st = LAB_ADD(l, sc->mass, sc->damping, sc->stiffness, sc->force, sc->omega_from, sc->omega_to, h->harmonics,
-                         h->samples, h->keep_mean, h->force == HBM_FORCE_SAMPLED, h->restart == HBM_RESTART_SAMPLE);
-  for (int j = 0; j < sc->n_contacts && st == HC_OK; ++j) {
-    const scene_contact *c = &sc->contacts[j];
+  hc_status st = LAB_ADD(l, *s->mass.v, *s->damping.v, *s->stiffness.v, s->loads->amplitude, sc->omega_from,
+                         sc->omega_to, h->harmonics, h->samples, h->keep_mean, h->force == HBM_FORCE_SAMPLED,
+                         h->restart == HBM_RESTART_SAMPLE);
+  for (int j = 0; j < s->n_contacts && st == HC_OK; ++j) {
+    const scene_contact *c = &s->contacts[j].given;
     double *row = lab_row(l);
     if (!row) return lab_answer(l, HC_NO_MEMORY);
     /* The page has no constant normal force: of a contact along x it is that of any spring and gap. */
@@ -104,8 +110,8 @@ void lab_exact_law(scene *sc)
 {
   sc->transient.law = TRANSIENT_LAW_EXACT;
   sc->transient.method = TRANSIENT_METHOD_CLOSED_FORM;
-  for (int j = 0; j < sc->n_contacts; ++j)
-    if (scene_contact_law(&sc->contacts[j]).smooth != CONTACT_KINKED) sc->transient.method = TRANSIENT_METHOD_CVODE;
+  for (int j = 0; j < scene_contact_count(sc); ++j)
+    if (scene_contact_law(scene_contact_at(sc, j)).smooth != CONTACT_KINKED) sc->transient.method = TRANSIENT_METHOD_CVODE;
 }
 
 hc_status lab_solver(const scene *sc, hbm_solver **out)

@@ -14,7 +14,7 @@ typedef struct lab_kept {
 
 struct lab {
   bool has_case;
-  scene sc; /* an oscillator: nothing to free */
+  scene sc; /* an oscillator */
   char message[CASE_MESSAGE];
   int rows, columns;
   double *values; /* [rows][columns] */

@@ -33,7 +33,7 @@ static double force_across(const scene_contact *c, const contact *law, double v)
 /* n rows: th, x, and each contact's u, v, N. */
 static hc_status add_instants(lab *l, int n, const moving_contact *contacts)
 {
-  const int n_contacts = l->sc.n_contacts;
+  const int n_contacts = scene_contact_count(&l->sc);
   lab_begin(l, BEFORE + OF_CONTACT * n_contacts);
   for (int i = 0; i < n; ++i) {
     double *row = lab_row(l);
@@ -45,7 +45,7 @@ static hc_status add_instants(lab *l, int n, const moving_contact *contacts)
       double *to = row + BEFORE + OF_CONTACT * j;
       to[0] = contacts[j].cu[0] * row[1];
       to[1] = contacts[j].cv[0] * row[1];
-      to[2] = force_across(&l->sc.contacts[j], &contacts[j].law, to[1]);
+      to[2] = force_across(scene_contact_at(&l->sc, j), &contacts[j].law, to[1]);
     }
   }
   return HC_OK;
@@ -60,9 +60,9 @@ static hc_status exact_tractions(lab *l, int n, const moving_contact *contacts)
 {
   double F[LAB_MOST_COEF];
   exact_force *e;
-  hc_status st = exact_force_new(l->n_harm, 1, l->sc.n_contacts, contacts, &e);
+  hc_status st = exact_force_new(l->n_harm, 1, scene_contact_count(&l->sc), contacts, &e);
   if (st == HC_OK) st = exact_force_eval(e, l->X, F, NULL, NULL);
-  for (int j = 0; j < l->sc.n_contacts && st == HC_OK; ++j) {
+  for (int j = 0; j < scene_contact_count(&l->sc) && st == HC_OK; ++j) {
     int n_intervals;
     const contact_interval *intervals = exact_force_intervals(e, j, &n_intervals);
     for (int i = 0; i < n; ++i) {
@@ -82,7 +82,7 @@ static hc_status sampled_tractions(lab *l, int n, const moving_contact *contacts
   sampled_interval *states = calloc(2 * (size_t)n, sizeof *states);
   hc_status st = x && states ? HC_OK : HC_NO_MEMORY;
   for (int i = 0; i < n && st == HC_OK; ++i) x[i] = l->values[(size_t)i * (size_t)l->columns + 1];
-  for (int j = 0; j < l->sc.n_contacts && st == HC_OK; ++j) {
+  for (int j = 0; j < scene_contact_count(&l->sc) && st == HC_OK; ++j) {
     const slider_motion motion = {x, x, contacts[j].cu[0], contacts[j].cv[0], 1, 0};
     const slider_rule rule = {.restart = l->sc.hbm.restart};
     slider_follow(&contacts[j].law, &rule, n, &motion, T, again, states, states + n);
@@ -98,7 +98,7 @@ int lab_signal(lab *l, int force, int n)
   moving_contact contacts[SCENE_MAX_CONTACTS];
   lab_begin(l, 0);
   if (!has_motion(l) || n < 1 || force < 0 || force >= LAB_FORCES) return lab_answer(l, HC_BAD_INPUT);
-  for (int j = 0; j < l->sc.n_contacts; ++j) contacts[j] = scene_moving_contact(&l->sc.contacts[j]);
+  for (int j = 0; j < scene_contact_count(&l->sc); ++j) contacts[j] = scene_moving_contact(scene_contact_at(&l->sc, j));
   hc_status st = add_instants(l, n, contacts);
   if (st == HC_OK) st = force == LAB_EXACT ? exact_tractions(l, n, contacts) : sampled_tractions(l, n, contacts);
   return lab_answer(l, st);
@@ -116,8 +116,8 @@ static hc_status force_harmonics(const lab *l, const model *m, int n_harm, int n
   const given_motion of = {.n_harm = n_harm, .n_dof = 1, .n_contacts = m->n_contacts, .contacts = contacts, .X = X};
   if (st == HC_OK) st = given_motion_force(&of, l->sc.hbm.restart, n_time, F);
   free(contacts);
-  for (int j = 0; j < l->sc.n_contacts && st == HC_OK; ++j)
-    for (int i = 0; i < 2 * n_harm + 1; ++i) F[i] += scene_contact_slope(&l->sc.contacts[j]) * X[i];
+  for (int j = 0; j < scene_contact_count(&l->sc) && st == HC_OK; ++j)
+    for (int i = 0; i < 2 * n_harm + 1; ++i) F[i] += scene_contact_slope(scene_contact_at(&l->sc, j)) * X[i];
   return st;
 }
 
@@ -147,7 +147,7 @@ int lab_spectrum(lab *l, int n, int n_shown)
  * motion's extrema. */
 static hc_status add_work(lab *l, int j, const model_contact *m)
 {
-  const scene_contact *c = &l->sc.contacts[j];
+  const scene_contact *c = scene_contact_at(&l->sc, j);
   double u[LAB_MOST_COEF], v[LAB_MOST_COEF], most, least;
   contact_period p = {0};
   hc_status st = HC_OK;
@@ -178,7 +178,7 @@ int lab_work(lab *l)
   lab_begin(l, COLUMNS);
   if (!has_motion(l)) return lab_answer(l, HC_BAD_INPUT);
   hc_status st = scene_model(&l->sc, &m);
-  for (int j = 0; st == HC_OK && j < l->sc.n_contacts; ++j)
+  for (int j = 0; st == HC_OK && j < scene_contact_count(&l->sc); ++j)
     st = add_work(l, j, &m->contacts[scene_model_contact(&l->sc, j)]);
   model_free(m);
   return lab_answer(l, st);

@@ -155,14 +155,13 @@ hbmcheck_status hbmcheck_case_parse(const char *name, const char *text, size_t l
 int hbmcheck_case_responses(const hbmcheck_case *c)
 {
   if (!c) return 0;
-  return c->sc.structure ? structure_response_count(c->sc.structure) : 1;
+  return structure_response_count(c->sc.structure);
 }
 
 hbmcheck_status hbmcheck_case_response_name(const hbmcheck_case *c, int r, char *text, size_t size)
 {
   if (!text || size == 0 || r < 0 || r >= hbmcheck_case_responses(c)) return HBMCHECK_BAD_INPUT;
-  if (c->sc.structure) structure_response_name(c->sc.structure, r, text, size);
-  else library_say(text, size, "x");
+  structure_response_name(c->sc.structure, r, text, size);
   return HBMCHECK_OK;
 }
 

@@ -17,7 +17,7 @@ static hc_status read_curve(const hbmcheck_case *c, const hbmcheck_foreign *curv
   const int responses = hbmcheck_case_responses(c);
   hc_status st = verify_data_of(curve->quantity, curve->noise, curve->n, curve->omega, curve->value, out, words);
   if (st != HC_OK) return st;
-  const char *refused = c->sc.structure ? verify_quantity_refused_of_structure(&out->quantity) : NULL;
+  const char *refused = !scene_is_oscillator(&c->sc) ? verify_quantity_refused_of_structure(&out->quantity) : NULL;
   out->response = curve->response;
   if (curve->response < 0 || curve->response >= responses)
     snprintf(words, VERIFY_TEXT, "response %d: there is none, expected 0 to %d", curve->response, responses - 1);

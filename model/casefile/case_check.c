@@ -93,7 +93,7 @@ static hc_status check_gate_ranges(case_reader *r)
 static hc_status check_laws(case_reader *r)
 {
   for (int j = 0; j < scene_contact_count(&r->sc); ++j) {
-    const case_place at = r->sc.structure ? r->sc.structure->contacts[j].place : r->contact_at[j];
+    const case_place at = r->sc.structure->contacts[j].place;
     const hc_status st = case_check_law_given(r, j, scene_contact_at(&r->sc, j), at);
     if (st != HC_OK) return st;
     if (!isfinite(scene_contact_law(scene_contact_at(&r->sc, j)).gap))
@@ -103,14 +103,16 @@ static hc_status check_laws(case_reader *r)
   return HC_OK;
 }
 
-/* A contact appended by --set must have got every required field; contacts of the file were checked when read. */
-static hc_status check_contacts(case_reader *r)
+/* The rules of an oscillator: a contact appended by --set must have got every required field; contacts of the file were
+ * checked when read. */
+static hc_status check_oscillator(case_reader *r)
 {
-  for (int j = 0; j < r->sc.n_contacts; ++j)
+  for (int j = 0; j < r->sc.structure->n_contacts; ++j)
     for (int i = 0; i < field_count(); ++i) {
+      const structure_contact *c = &r->sc.structure->contacts[j];
       const field *f = field_at(i);
-      if (!case_contact_needs(&r->sc.contacts[j], r->contact_has[j], f)) continue;
-      message *m = case_blame(r, r->contact_at[j]);
+      if (!case_contact_needs(&c->given, r->contact_has[j], f)) continue;
+      message *m = case_blame(r, c->place);
       message_add(m, "this appends a contact without `%s`, expected contacts[%d].%s=VALUE too: ", f->name, j, f->name);
       field_expected(f, m);
       return HC_BAD_INPUT;
@@ -152,19 +154,24 @@ static hc_status check_damping(case_reader *r)
 
 /* ---- loads and contacts ---- */
 
-/* A moving base is the one load with omega, and a structure says where it moves it. */
+/* A moving base is the one load with omega, and a structure says where it moves it; an oscillator's moves it if it moves
+ * itself. */
 static hc_status check_base(case_reader *r)
 {
   scene_structure *s = r->sc.structure;
   const case_place at = last_given(r, "base", "amplitude", "acceleration");
   const field *direction = field_named("base", "direction");
-  if (!scene_base_moves(&r->sc) && !(s && s->base)) return HC_OK;
-  if (!s && r->sc.force != 0)
+  if (s->is_oscillator && !scene_base_moves(&r->sc)) {
+    free(s->base);
+    s->base = NULL;
+  }
+  if (!scene_base_moves(&r->sc) && !s->base) return HC_OK;
+  if (s->is_oscillator && s->loads->amplitude != 0)
     return case_refuse(r, at, "both the base and forcing.amplitude act with omega, expected one of them");
-  for (int i = 0; s && i < s->n_loads; ++i)
+  for (int i = 0; i < s->n_loads && !s->is_oscillator; ++i)
     if (s->loads[i].harmonic == 1)
       return case_refuse(r, s->loads[i].place, "both the base and forcing[%d] act with omega, expected one of them", i);
-  if (!s || s->base) return HC_OK;
+  if (s->base) return HC_OK;
   if (s->n > 1)
     return case_refuse(r, at, "the base moves, but base.direction does not say which DOFs, expected %s",
                        direction->expects);
@@ -262,8 +269,7 @@ static hc_status check_held(case_reader *r)
 static hc_status check_structure(case_reader *r)
 {
   const bool kept = r->sc.structure->is_sparse; /* what comes of its reduction is checked */
-  hc_status st = kept ? HC_OK : case_own_structure(r);
-  if (st == HC_OK && !kept) st = check_damping(r);
+  hc_status st = kept ? HC_OK : check_damping(r);
   if (st == HC_OK) st = check_loads(r);
   for (int j = 0; j < r->sc.structure->n_contacts && st == HC_OK; ++j) st = check_contact(r, j);
   return st == HC_OK && !kept ? check_held(r) : st;
@@ -274,8 +280,9 @@ static hc_status check_structure(case_reader *r)
 hc_status case_check(case_reader *r)
 {
   r->sc.gate.ranges.in_cycles = r->sc.in_cycles;
-  hc_status st = check_laws(r);
-  if (st == HC_OK) st = r->sc.structure ? check_structure(r) : check_contacts(r);
+  hc_status st = case_own_structure(r); /* damping and the way of the base are made here */
+  if (st == HC_OK) st = check_laws(r);
+  if (st == HC_OK) st = scene_is_oscillator(&r->sc) ? check_oscillator(r) : check_structure(r);
   if (st == HC_OK) st = check_base(r);
   if (st == HC_OK) st = check_sweep(r);
   if (st == HC_OK) st = check_samples(r);

@@ -120,20 +120,23 @@ static double ratio(double a, double b) { return b > 0 ? a / b : NAN; }
 int case_derive(const scene *sc, case_derived *out)
 {
   /* The linear oscillators with all contacts open, and with all closed and sticking. */
-  const double open = sqrt(sc->stiffness / sc->mass), stuck = sqrt(scene_max_stiffness(sc) / sc->mass);
+  const scene_structure *s = sc->structure;
+  const double mass = *s->mass.v, damping = *s->damping.v, stiffness = *s->stiffness.v;
+  const double open = sqrt(stiffness / mass), stuck = sqrt(scene_max_stiffness(sc) / mass);
   const case_derived of_oscillator[] = {
       {"omega_open", open, "rad/time", "natural frequency, every contact open"},
       {"omega_stuck", stuck, "rad/time", "natural frequency, every contact stuck"},
       {"frequency_open", open / TWO_PI, "cycles/time", "omega_open / (2 pi)"},
       {"frequency_stuck", stuck / TWO_PI, "cycles/time", "omega_stuck / (2 pi)"},
-      {"damping_ratio_open", ratio(sc->damping, 2 * sc->mass * open), "1", "C / (2 M omega_open)"},
-      {"damping_ratio_stuck", ratio(sc->damping, 2 * sc->mass * stuck), "1", "C / (2 M omega_stuck)"},
-      {"static_deflection", ratio(sc->force, sc->stiffness), "length", "F0 / K"}};
+      {"damping_ratio_open", ratio(damping, 2 * mass * open), "1", "C / (2 M omega_open)"},
+      {"damping_ratio_stuck", ratio(damping, 2 * mass * stuck), "1", "C / (2 M omega_stuck)"},
+      {"static_deflection", ratio(s->loads->amplitude, stiffness), "length", "F0 / K"}};
   int n = sizeof of_oscillator / sizeof *of_oscillator;
   memcpy(out, of_oscillator, sizeof of_oscillator);
-  for (int j = 0; j < sc->n_contacts; ++j) {
-    const moving_contact c = scene_moving_contact(&sc->contacts[j]);
-    if (sc->contacts[j].kind != CONTACT_KINKED) continue;
+  for (int j = 0; j < s->n_contacts; ++j) {
+    const scene_contact *given = &s->contacts[j].given;
+    const moving_contact c = scene_moving_contact(given);
+    if (given->kind != CONTACT_KINKED) continue;
     const double preload = contact_preload(&c.law) + c.law.load, touches = c.cv[0] != 0 ? 0 - c.law.gap / c.cv[0] : NAN;
     const case_derived of_contact[] = {
         {"preload", preload, "force", "N0 = kn gap, at rest; 0 with a clearance"},

@@ -176,15 +176,14 @@ static bool has_direction(const scene_structure *s, const structure_contact *c, 
   return !is_zero(s->n, field_direction(f, c));
 }
 
-bool case_contact_field_counts(const scene_structure *s, const structure_contact *c, const scene_contact *given,
-                               const field *f)
+bool case_contact_field_counts(const scene_structure *s, const structure_contact *c, const field *f)
 {
   const bool preload = !strcmp(f->name, "preload");
-  if (!field_is_echoed(f, given) || (!s && f->flags & FIELD_STRUCTURE)) return false;
-  if (s && !strcmp(f->name, "angle_deg")) return c->by_angle;
-  if (!strcmp(f->name, "name")) return *given->name;
-  if (s && f->along && !has_direction(s, c, f->along)) return false;
-  return !f->group || (s && !has_direction(s, c, "normal")) || preload == (given->preload > 0);
+  if (!field_is_echoed(f, &c->given) || (s->is_oscillator && f->flags & FIELD_STRUCTURE)) return false;
+  if (!strcmp(f->name, "angle_deg")) return c->by_angle;
+  if (!strcmp(f->name, "name")) return *c->given.name;
+  if (f->along && !has_direction(s, c, f->along)) return false;
+  return !f->group || !has_direction(s, c, "normal") || preload == (c->given.preload > 0);
 }
 
 static void begin_line(const char **before, const field *f, FILE *to)
@@ -214,12 +213,12 @@ void case_write_points(const scene_contact *c, FILE *to)
   fputs("]", to);
 }
 
-/* An entry of a list: directions that are not 0, then scalars in base. s, c NULL: an oscillator's; c: a load. */
+/* An entry of a list: directions that are not 0, then scalars in base. c NULL: a load. */
 static void write_entry(const char *section, const scene_structure *s, const structure_contact *c, const void *entry,
                         const void *base, FILE *to)
 {
   const char *before = "  - ";
-  for (int i = 0; i < field_count() && s; ++i) {
+  for (int i = 0; i < field_count(); ++i) {
     const field *f = field_at(i);
     const bool is_direction = f->kind == FIELD_PART && f->size > 0 && strcmp(f->name, "dof") != 0;
     if (c && !field_is_of_law(f, &c->given)) continue;
@@ -232,7 +231,6 @@ static void write_entry(const char *section, const scene_structure *s, const str
     else write_direction(s, field_direction(f, entry), to);
     putc('\n', to);
   }
-  if (c && c->by_angle) fprintf(to, "%.3s\n", before), before = "    ";
   for (int i = 0; i < field_count(); ++i) {
     const field *f = field_at(i);
     if (strcmp(f->section, section)) continue;
@@ -244,7 +242,7 @@ static void write_entry(const char *section, const scene_structure *s, const str
       putc('\n', to);
       continue;
     }
-    if (f->flags & FIELD_NO_ECHO || (!(s && !c) && !case_contact_field_counts(s, c, base, f))) continue;
+    if (f->flags & FIELD_NO_ECHO || (c && !case_contact_field_counts(s, c, f))) continue;
     begin_line(&before, f, to);
     field_write(f, base, to);
     putc('\n', to);
@@ -253,22 +251,19 @@ static void write_entry(const char *section, const scene_structure *s, const str
 
 static void begin_list(const char *name, int n, FILE *to) { fprintf(to, n > 0 ? "%s:\n" : "%s: []\n", name); }
 
-/* Write what the section says of a structure, responses with `structure`; false: no more than of an oscillator. */
-static bool write_of_structure(const scene_structure *s, const char *section, FILE *to)
+static void write_loads(const scene_structure *s, FILE *to)
 {
-  if (!strcmp(section, "structure")) {
-    write_structure(s, to);
-  } else if (!strcmp(section, "forcing[]")) {
-    begin_list("forcing", s->n_loads, to);
-    for (int j = 0; s->loads && j < s->n_loads; ++j) write_entry(section, s, NULL, &s->loads[j], &s->loads[j], to);
-  } else if (!strcmp(section, "contacts")) {
-    for (const char *note = s->notes; note && *note; note = strchr(note, '\n') + 1)
-      fprintf(to, "# %.*s\n", (int)strcspn(note, "\n"), note);
-    begin_list("contacts", s->n_contacts, to);
-    for (int j = 0; s->contacts && j < s->n_contacts; ++j)
-      write_entry(section, s, &s->contacts[j], &s->contacts[j], &s->contacts[j].given, to);
-  } else return !strcmp(section, "oscillator") || !strcmp(section, "forcing");
-  return true;
+  begin_list("forcing", s->n_loads, to);
+  for (int j = 0; s->loads && j < s->n_loads; ++j) write_entry("forcing[]", s, NULL, &s->loads[j], &s->loads[j], to);
+}
+
+static void write_contacts(const scene_structure *s, FILE *to)
+{
+  for (const char *note = s->notes; note && *note; note = strchr(note, '\n') + 1)
+    fprintf(to, "# %.*s\n", (int)strcspn(note, "\n"), note);
+  begin_list("contacts", s->n_contacts, to);
+  for (int j = 0; s->contacts && j < s->n_contacts; ++j)
+    write_entry("contacts", s, &s->contacts[j], &s->contacts[j], &s->contacts[j].given, to);
 }
 
 /* ---- the scene ---- */
@@ -282,14 +277,14 @@ static bool choices_are_known(const scene *sc)
     while (f->choices[n]) ++n;
     if (value < 0 || value >= n) return false;
   }
-  return sc->n_contacts >= 0 && sc->n_contacts <= SCENE_MAX_CONTACTS;
+  return !scene_is_oscillator(sc) || scene_contact_count(sc) <= SCENE_MAX_CONTACTS;
 }
 
 /* Whether the field is written. Where one of two fields replaces the other, it is the one that was given: the sweep's,
  * a list that is not empty, else the other. */
 bool case_field_counts(const field *f, const scene *sc)
 {
-  if (f->flags & (FIELD_NO_ECHO | FIELD_STRUCTURE | FIELD_IN_CONTACT)) return false; /* those have ways of their own */
+  if (f->flags & (FIELD_NO_ECHO | FIELD_STRUCTURE | FIELD_IN_CONTACT) || !field_is_of_case(f, sc)) return false;
   if (!strcmp(f->section, "base")) return *(const double *)field_look(f, sc) != 0;
   if (!strcmp(f->section, "forcing")) return !scene_base_moves(sc);
   if (f->in_cycles) return (f->scale != 0) == sc->in_cycles;
@@ -307,14 +302,14 @@ static void write_section(const field_section *s, const scene *sc, FILE *to)
     const field *f = field_at(i);
     if (strcmp(f->section, s->name) || !case_field_counts(f, sc)) continue;
     if (!begun) fprintf(to, "%s:\n", s->name);
-    if (!begun && sc->structure && sc->structure->base && !strcmp(s->name, "base")) {
+    if (!begun && !scene_is_oscillator(sc) && sc->structure->base && !strcmp(s->name, "base")) {
       fputs("  direction: ", to);
       write_direction(sc->structure, sc->structure->base, to);
       putc('\n', to);
     }
     begun = true;
     fprintf(to, "%s%s: ", *s->name ? "  " : "", f->name);
-    field_write(f, sc, to);
+    field_write(f, field_base(f, sc), to);
     putc('\n', to);
   }
 }
@@ -324,13 +319,11 @@ hc_status case_echo(const scene *sc, FILE *to)
   if (!choices_are_known(sc)) return HC_BAD_INPUT;
   const field_section *s;
   for (int i = 0; (s = field_section_at(i)) != NULL; ++i) {
-    if (sc->structure && write_of_structure(sc->structure, s->name, to)) continue;
-    if (strcmp(s->name, "contacts")) {
-      write_section(s, sc, to);
-      continue;
-    }
-    begin_list("contacts", sc->n_contacts, to);
-    for (int j = 0; j < sc->n_contacts; ++j) write_entry("contacts", NULL, NULL, NULL, &sc->contacts[j], to);
+    const bool is_structure = !scene_is_oscillator(sc); /* responses stand with `structure` */
+    if (is_structure && !strcmp(s->name, "structure")) write_structure(sc->structure, to);
+    else if (is_structure && !strcmp(s->name, "forcing[]")) write_loads(sc->structure, to);
+    else if (!strcmp(s->name, "contacts")) write_contacts(sc->structure, to);
+    else write_section(s, sc, to);
   }
   return ferror(to) ? HC_IO : HC_OK;
 }

@@ -32,8 +32,7 @@ typedef struct case_reader {
   case_source *source; /* or NULL: what another model needs of the text           */
   /* [field_index] where each field was last given; of contacts' fields, in the contact being read */
   case_place at[FIELD_MAX];
-  /* where each contact of an oscillator appeared; case_field_bit: that field of it has been given */
-  case_place contact_at[SCENE_MAX_CONTACTS];
+  /* of an oscillator's contacts, case_field_bit: that field has been given */
   unsigned long long contact_has[SCENE_MAX_CONTACTS];
   /* where each field of each contact was last given */
   case_place contact_field_at[SCENE_MAX_CONTACTS][FIELD_MAX];
@@ -156,10 +155,8 @@ void yaml_forget_fields(case_reader *r, unsigned of);
 /* The value of one field, of contact or load j if it is one of theirs, into base (fields.h). */
 hc_status yaml_scene_value(case_reader *r, const field *f, int j, void *base, const yaml_node_t *node);
 
-/* A scene at `root`, its list of contacts, or contact j of it, into r->sc. */
+/* A scene at `root` into r->sc. */
 hc_status yaml_scene_read(case_reader *r, const yaml_node_t *root);
-hc_status yaml_scene_contacts(case_reader *r, const yaml_node_t *node);
-hc_status yaml_scene_contact(case_reader *r, const yaml_node_t *node, int j);
 
 /* ---- of a structure, into r->sc.structure ---- */
 
@@ -188,7 +185,7 @@ hc_status yaml_field_read(case_reader *r, const field *f, const yaml_node_t *key
 hc_status yaml_fields_read(case_reader *r, const yaml_node_t *node, const char *section, int j, void *base,
                            bool by_node);
 
-/* The coefficients or points of contact j, of an oscillator or a structure; and whether the field is one of these. */
+/* The coefficients or points of contact j; and whether the field is one of these. */
 hc_status yaml_law_part(case_reader *r, const field *f, int j, const yaml_node_t *node);
 bool yaml_is_law_part(const field *f);
 

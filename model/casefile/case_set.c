@@ -66,7 +66,7 @@ static hc_status read_name(case_reader *r, const char *s, const char *stop, cons
   const scene_structure *own = r->sc.structure;
   const char *close = s < stop && *s == '[' ? memchr(s, ']', (size_t)(stop - s)) : NULL;
   *index = -1;
-  if (!close || !own || close == s + 1 || (s[1] >= '0' && s[1] <= '9') || s[1] == '-') return HC_OK;
+  if (!close || own->is_oscillator || close == s + 1 || (s[1] >= '0' && s[1] <= '9') || s[1] == '-') return HC_OK;
   *end = close + 1;
   const size_t length = (size_t)(close - s - 1);
   *index = structure_contact_named(own, s + 1, length);
@@ -91,7 +91,7 @@ static hc_status read_name(case_reader *r, const char *s, const char *stop, cons
 static hc_status check_index(case_reader *r, case_target t)
 {
   const int n = t.list == CASE_LOADS ? r->sc.structure->n_loads : scene_contact_count(&r->sc);
-  const bool one_more = !(r->sc.structure ? t.f != NULL : n == SCENE_MAX_CONTACTS);
+  const bool one_more = scene_is_oscillator(&r->sc) ? n < SCENE_MAX_CONTACTS : !t.f;
   if (t.index < n + one_more) return HC_OK;
   return case_refuse(r, r->here, "the case has %d %s, expected an index 0..%d%s", n,
                      t.list == CASE_LOADS ? "loads" : "contacts", n - 1 + one_more,
@@ -125,10 +125,8 @@ static hc_status find_in_list(case_reader *r, const char *path, size_t length, c
 /* A structure has no field of an oscillator, and an oscillator none of a structure. */
 static hc_status check_kind(case_reader *r, const field *f, const char *path, size_t length)
 {
-  const bool structure = r->sc.structure != NULL;
-  const bool of_oscillator = !strcmp(f->section, "oscillator") || !strcmp(f->section, "forcing");
-  if (structure ? !of_oscillator : !(f->flags & FIELD_STRUCTURE)) return HC_OK;
-  if (structure)
+  if (field_is_of_case(f, &r->sc)) return HC_OK;
+  if (!scene_is_oscillator(&r->sc))
     return case_refuse(r, r->here, "%s is an oscillator's, and the case has a structure, expected %s.%s",
                        QUOTED(path, length), *f->section == 'f' ? "forcing[0]" : "structure", f->name);
   return case_refuse(r, r->here, "%s is a structure's, and the case has an oscillator, expected a field of that",
@@ -147,7 +145,7 @@ hc_status case_find_target(case_reader *r, const char *path, size_t length, case
   hc_status st = HC_OK;
   if (begins_list(path, length, "contacts")) {
     st = find_in_list(r, path, length, CASE_CONTACTS, t);
-  } else if (r->sc.structure && begins_list(path, length, "forcing")) {
+  } else if (!scene_is_oscillator(&r->sc) && begins_list(path, length, "forcing")) {
     st = find_in_list(r, path, length, CASE_LOADS, t);
   } else {
     const char *dot = memchr(path, '.', length);
@@ -162,7 +160,7 @@ hc_status case_find_target(case_reader *r, const char *path, size_t length, case
 
 hc_status case_own_structure(case_reader *r)
 {
-  if (r->owns_structure || !r->sc.structure) return HC_OK;
+  if (r->owns_structure) return HC_OK;
   scene_structure *own = structure_copy(r->sc.structure);
   if (!own) return case_out_of_memory(r);
   r->sc.structure = own;
@@ -170,41 +168,43 @@ hc_status case_own_structure(case_reader *r)
   return HC_OK;
 }
 
+static bool is_in_structure(case_target t)
+{
+  return t.list != CASE_NO_LIST || t.f->flags & (FIELD_STRUCTURE | FIELD_OSCILLATOR);
+}
+
 void *case_target_base(case_reader *r, case_target t)
 {
-  const bool in_structure = r->sc.structure && (t.list != CASE_NO_LIST || t.f->flags & FIELD_STRUCTURE);
-  if (in_structure && case_own_structure(r) != HC_OK) return NULL;
+  if (!is_in_structure(t)) return &r->sc;
+  if (case_own_structure(r) != HC_OK) return NULL;
   scene_structure *s = r->sc.structure;
-  if (in_structure && t.list == CASE_LOADS) return &s->loads[t.index];
-  if (in_structure && t.list == CASE_CONTACTS) return &s->contacts[t.index].given;
-  if (in_structure) return s;
-  if (t.list == CASE_NO_LIST) return &r->sc;
-  const int j = t.index;
-  if (j == r->sc.n_contacts) { /* appended */
-    field_contact_defaults(&r->sc.contacts[j]);
-    r->contact_has[j] = 0;
-    memset(r->contact_field_at[j], 0, sizeof r->contact_field_at[j]);
-    r->contact_at[j] = r->here;
-    r->sc.n_contacts = j + 1;
-  }
-  return &r->sc.contacts[j];
+  if (t.list == CASE_NO_LIST) return s;
+  if (t.list == CASE_LOADS) return &s->loads[t.index];
+  if (t.index < s->n_contacts) return &s->contacts[t.index].given;
+  structure_contact *appended = structure_add_contact(s);
+  if (!appended) return case_out_of_memory(r), NULL;
+  field_contact_defaults(&appended->given);
+  appended->place = r->here;
+  r->contact_has[t.index] = 0;
+  memset(r->contact_field_at[t.index], 0, sizeof r->contact_field_at[t.index]);
+  return &appended->given;
 }
 
 void case_target_given(case_reader *r, case_target t)
 {
   scene_structure *s = r->sc.structure;
-  if (s && t.list == CASE_LOADS) s->loads[t.index].place = r->here;
-  else if (s && t.list == CASE_CONTACTS) {
+  if (is_in_structure(t)) s->place = r->here; /* what it is wrong about as a whole, it is from here on */
+  if (t.list == CASE_NO_LIST) r->at[field_index(t.f)] = r->here;
+  if (t.list == CASE_LOADS) s->loads[t.index].place = r->here;
+  if (t.list == CASE_CONTACTS && s->is_oscillator) {
+    r->contact_has[t.index] |= case_field_bit(t.f);
+    r->contact_field_at[t.index][field_index(t.f)] = r->here;
+  } else if (t.list == CASE_CONTACTS) {
     structure_contact *c = &s->contacts[t.index];
     c->place = r->here;
     if (t.whole && t.f == field_named("contacts", "tangential_stiffness") && c->area > 0) c->given.law.kt *= c->area;
     if (t.whole && t.f == field_named("contacts", "normal_stiffness") && c->area > 0) c->given.law.kn *= c->area;
-  } else if (t.list == CASE_CONTACTS) {
-    r->contact_has[t.index] |= case_field_bit(t.f);
-    r->contact_field_at[t.index][field_index(t.f)] = r->here;
-  } else r->at[field_index(t.f)] = r->here;
-  if (!s) return;
-  s->place = r->here; /* what it is wrong about as a whole, it is from here on */
+  }
   if (!(t.f->flags & FIELD_IN_STRUCTURE)) return;
   structure_damping_given(s, t.f);
   s->damping.place = r->here;
@@ -239,13 +239,8 @@ static hc_status set_field(case_reader *r, case_target t, const char *text)
 /* A list of contacts or loads, or an entry of one. */
 static hc_status read_list(case_reader *r, case_target t, const yaml_node_t *node)
 {
-  if (t.list == CASE_LOADS && t.index < 0) return yaml_loads_read(r, node);
-  if (t.list == CASE_LOADS) return yaml_load_read(r, node, t.index);
-  if (r->sc.structure && t.index < 0) return yaml_contacts_read(r, node);
-  if (r->sc.structure) return yaml_contact_read(r, node, t.index);
-  if (t.index < 0) return yaml_scene_contacts(r, node);
-  case_target_base(r, t);
-  return yaml_scene_contact(r, node, t.index);
+  if (t.list == CASE_LOADS) return t.index < 0 ? yaml_loads_read(r, node) : yaml_load_read(r, node, t.index);
+  return t.index < 0 ? yaml_contacts_read(r, node) : yaml_contact_read(r, node, t.index);
 }
 
 /* A field stored by its kind alone; the others have forms of their own. */
@@ -264,7 +259,7 @@ hc_status case_target_read(case_reader *r, case_target t, const yaml_node_t *nod
   hc_status st = case_own_structure(r);
   if (st != HC_OK) return st;
   if (t.f && yaml_is_law_part(t.f) && !case_target_base(r, t)) return HC_NO_MEMORY;
-  if (r->sc.structure) r->sc.structure->place = r->here;
+  r->sc.structure->place = r->here;
   if (!t.f) return read_list(r, t, node);
   if (t.list == CASE_NO_LIST) return yaml_structure_part(r, t.f, node);
   st = yaml_entry_part(r, t.f, t.index, node);

@@ -19,10 +19,8 @@ hc_status case_read_placed(const char *path, int n_set, const char *const *set, 
 /* Does this field say something in this scene? Of rivals the one in force does; an empty list does not. */
 bool case_field_counts(const field *f, const scene *sc);
 
-/* Does this field say something of contact `given`, of a structure its c, of an oscillator s = c = NULL? Of gap and
- * preload the one that was given does. */
-bool case_contact_field_counts(const scene_structure *s, const structure_contact *c, const scene_contact *given,
-                               const field *f);
+/* Does this field say something of contact c of s? Of gap and preload the one that was given does. */
+bool case_contact_field_counts(const scene_structure *s, const structure_contact *c, const field *f);
 
 /* A table's points as a case file has them: [[-1, -5], [0, 0], [1, 20]]. */
 void case_write_points(const scene_contact *c, FILE *to);

@@ -75,7 +75,7 @@ bool yaml_is_law_part(const field *f)
 
 hc_status yaml_law_part(case_reader *r, const field *f, int j, const yaml_node_t *node)
 {
-  scene_contact *c = r->sc.structure ? &r->sc.structure->contacts[j].given : &r->sc.contacts[j];
+  scene_contact *c = &r->sc.structure->contacts[j].given;
   return (*f->name == 'c' ? read_coefficients : read_points)(r, f, j, c, node);
 }
 

@@ -1,20 +1,29 @@
-/* contact_model.c - the contacts of the model that a contact of the case is; see scene.h. */
-#include <math.h>
+/* contact_model.c - the contacts of the model that a contact of the case is; see contact_model.h. */
+#include "model/casefile/contact_model.h"
 
-#include "model/casefile/fields.h"
+#include <math.h>
+#include <string.h>
 
 contact scene_contact_law(const scene_contact *c)
 {
-  scene_contact own = *c; /* without what its law has not */
-  for (int i = 0; i < field_count(); ++i) {
-    const field *f = field_at(i);
-    if (f->flags & FIELD_IN_CONTACT && f->kind == FIELD_REAL && !field_is_of_law(f, c))
-      *(double *)field_place(f, &own) = 0;
-  }
-  own.law.smooth = scene_contact_is_composed(c) ? CONTACT_KINKED : (contact_smooth)c->kind;
-  if (own.preload > 0 && own.law.kn > 0) own.law.gap = own.preload / own.law.kn;
-  if (!(own.law.kn > 0)) own.law.load = own.preload;
-  return own.law;
+  const contact *given = &c->law;
+  const bool kinked = c->kind == CONTACT_KINKED, rubs = kinked || c->kind == CONTACT_TANH;
+  contact law = {.smooth = scene_contact_is_composed(c) ? CONTACT_KINKED : (contact_smooth)c->kind};
+  if (kinked) law.kt = given->kt;
+  if (rubs) law.kn = given->kn, law.mu = given->mu, law.gap = given->gap;
+  if (c->kind == CONTACT_TANH) law.epsilon = given->epsilon;
+  if (c->kind == CONTACT_POLYNOMIAL) memcpy(law.power, given->power, sizeof law.power);
+  if (!rubs || !(law.kn > 0)) law.load = rubs ? c->preload : 0;
+  else if (c->preload > 0) law.gap = c->preload / law.kn;
+  return law;
+}
+
+moving_contact scene_moving_contact(const scene_contact *c)
+{
+  moving_contact out = {.law = scene_contact_law(c), .cv = {1}};
+  const bool rubs = c->kind == CONTACT_KINKED || c->kind == CONTACT_TANH;
+  if (rubs) model_direction(c->angle_deg, &out.cu[0], &out.cv[0]);
+  return out;
 }
 
 int scene_contact_parts(const scene_contact *c)

@@ -50,6 +50,8 @@ static const field_section sections[] = {
 
 /* Shorthands for the rows below. */
 #define SCENE(member)   .offset = offsetof(scene, member)
+#define OSCILLATOR(pointer, within, more)                                                                              \
+  .flags = FIELD_OSCILLATOR | (more), .offset = offsetof(scene_structure, pointer), .behind = (within)
 #define CONTACT(member) .flags = FIELD_IN_CONTACT, .offset = offsetof(scene_contact, member)
 #define LOAD(member)    .flags = FIELD_IN_LOAD | FIELD_STRUCTURE, .offset = offsetof(structure_load, member)
 #define STRUCTURE(member)                                                                                              \
@@ -87,11 +89,11 @@ static const field table[] = {
   {"units", "force", "", TEXT(unit_force), .fallback = "N", .meaning = "label of forces"},
   {"units", "time", "", TEXT(unit_time), .fallback = "s", .meaning = "label of times"},
 
-  {"oscillator", "mass", "M", FIELD_REAL, .unit = "force time^2/length", SCENE(mass), POSITIVE,
-   .meaning = "the moving mass"},
-  {"oscillator", "damping", "C", FIELD_REAL, .unit = "force time/length", SCENE(damping), NOT_NEGATIVE,
+  {"oscillator", "mass", "M", FIELD_REAL, .unit = "force time^2/length", OSCILLATOR(mass.v, 0, FIELD_OPEN),
+   WITHIN(0, INFINITY), .meaning = "the moving mass"},
+  {"oscillator", "damping", "C", FIELD_REAL, .unit = "force time/length", OSCILLATOR(damping.v, 0, 0), NOT_NEGATIVE,
    .meaning = "of the linear damper"},
-  {"oscillator", "stiffness", "K", FIELD_REAL, .unit = "force/length", SCENE(stiffness), NOT_NEGATIVE,
+  {"oscillator", "stiffness", "K", FIELD_REAL, .unit = "force/length", OSCILLATOR(stiffness.v, 0, 0), NOT_NEGATIVE,
    .meaning = "of the linear spring, without contacts"},
 
   {"structure", "mass", "M", PART(0, "a matrix: rows, a diagonal, or a FILE of one"),
@@ -120,7 +122,8 @@ static const field table[] = {
    .unit = "1, rad/time", .fallback = "",
    .meaning = "largest relative error of the receptance, as `reduce` states it, and at which frequency"},
 
-  {"forcing", "amplitude", "F0", FIELD_REAL, .unit = "force", SCENE(force), NOT_NEGATIVE,
+  {"forcing", "amplitude", "F0", FIELD_REAL, .unit = "force",
+   OSCILLATOR(loads, offsetof(structure_load, amplitude), 0), NOT_NEGATIVE,
    .meaning = "of the force F0 cos(omega t)"},
 
   {"forcing[]", "dof", "", DIRECTION(FIELD_IN_LOAD, structure_load, direction, "a DOF"),

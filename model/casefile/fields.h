@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "model/casefile/structure.h"
+#include "model/casefile/scene.h"
 #include "numerics/base/message.h"
 
 typedef enum field_kind {
@@ -29,9 +29,10 @@ enum {
   FIELD_NO_ECHO = 8,       /* not echoed: another field writes what this one stored */
   FIELD_IN_LOAD = 16,      /* offset is into structure_load */
   FIELD_IN_STRUCTURE = 32, /* offset is into scene_structure */
-  FIELD_STRUCTURE = 64     /* with `structure` only, not with `oscillator` */
+  FIELD_STRUCTURE = 64,    /* with `structure` only, not with `oscillator` */
+  FIELD_OSCILLATOR = 128   /* the other way round: offset is that of a pointer in scene_structure */
 };
-enum { FIELD_ELSEWHERE = FIELD_IN_CONTACT | FIELD_IN_LOAD | FIELD_IN_STRUCTURE }; /* offset is not into scene */
+enum { FIELD_ELSEWHERE = FIELD_IN_CONTACT | FIELD_IN_LOAD | FIELD_IN_STRUCTURE | FIELD_OSCILLATOR }; /* not in scene */
 
 typedef struct field {
   const char *section, *name; /* section is "" for the top level; path is section.name; loads' is "forcing[]" */
@@ -41,6 +42,7 @@ typedef struct field {
   const char *unit;           /* in terms of force, length, time; "1" for pure numbers, "" where there is none */
   size_t offset, size;        /* in bytes; size for FIELD_TEXT, and for FIELD_PART that is a direction: a double *, the
                                  offset into structure_load or structure_contact */
+  size_t behind;              /* of FIELD_OSCILLATOR: bytes behind where the pointer points */
   const char *fallback;       /* the default as it is written in a file; "": empty; NULL: the field is required */
   double low, high;           /* range, of each entry in lists */
   double scale;               /* stored = scale * written; 0 counts as 1 */
@@ -83,9 +85,27 @@ void field_expected(const field *f, message *m);
 /* Is it one of those of a contact or a load, of which a list has many? */
 static inline bool field_is_in_list(const field *f) { return f->flags & (FIELD_IN_CONTACT | FIELD_IN_LOAD); }
 
-/* Where the field lives in base: the scene, or what its flags tell. Not for FIELD_PART. */
-static inline void *field_place(const field *f, void *base) { return (char *)base + f->offset; }
-static inline const void *field_look(const field *f, const void *base) { return (const char *)base + f->offset; }
+/* Where the field lives in base: the scene, or what its flags tell, of an oscillator its structure. Not for
+ * FIELD_PART. */
+static inline void *field_place(const field *f, void *base)
+{
+  char *at = (char *)base + f->offset;
+  if (f->flags & FIELD_OSCILLATOR) memcpy(&at, at, sizeof at), at += f->behind;
+  return at;
+}
+static inline const void *field_look(const field *f, const void *base) { return field_place(f, (void *)(size_t)base); }
+
+/* Has the case that kind of field: of a structure, or of an oscillator? */
+static inline bool field_is_of_case(const field *f, const scene *sc)
+{
+  return !(f->flags & (scene_is_oscillator(sc) ? FIELD_STRUCTURE : FIELD_OSCILLATOR));
+}
+
+/* Of a field that is in no list: where field_place begins. */
+static inline const void *field_base(const field *f, const scene *sc)
+{
+  return f->flags & FIELD_OSCILLATOR ? (const void *)sc->structure : sc;
+}
 
 /* Has a contact of that law the field; and is it written for this one? */
 #define SCENE_LAWS(kind) (1u << (kind))

@@ -3,8 +3,6 @@
 
 #include <stdio.h>
 
-#include "model/casefile/fields.h"
-#include "model/casefile/structure.h"
 #include "numerics/base/constants.h"
 
 double scene_omega(const scene *sc, double given) { return sc->in_cycles ? TWO_PI * given : given; }
@@ -18,44 +16,25 @@ const char *scene_where(const scene *sc, double omega, char text[SCENE_WHERE])
   return text;
 }
 
-moving_contact scene_moving_contact(const scene_contact *c)
-{
-  moving_contact out = {.law = scene_contact_law(c), .cv = {1}};
-  if (field_is_of_law(field_named("contacts", "angle_deg"), c)) model_direction(c->angle_deg, &out.cu[0], &out.cv[0]);
-  return out;
-}
-
 double scene_max_stiffness(const scene *sc)
 {
-  double k = sc->stiffness;
-  for (int j = 0; j < sc->n_contacts; ++j) {
-    const moving_contact c = scene_moving_contact(&sc->contacts[j]);
-    k += moving_contact_stuck_stiffness(&c) + scene_contact_stiffness(&sc->contacts[j], false);
+  double k = *sc->structure->stiffness.v;
+  for (int j = 0; j < scene_contact_count(sc); ++j) {
+    const scene_contact *given = scene_contact_at(sc, j);
+    const moving_contact c = scene_moving_contact(given);
+    k += moving_contact_stuck_stiffness(&c) + scene_contact_stiffness(given, false);
   }
   return k;
 }
 
-int scene_contact_count(const scene *sc) { return sc->structure ? sc->structure->n_contacts : sc->n_contacts; }
-
-const scene_contact *scene_contact_at(const scene *sc, int j)
-{
-  return sc->structure ? &sc->structure->contacts[j].given : &sc->contacts[j];
-}
-
-int scene_model_contact(const scene *sc, int j)
-{
-  int first = 0;
-  if (sc->structure) return structure_model_contact(sc->structure, j);
-  for (int k = 0; k < j; ++k) first += scene_contact_parts(&sc->contacts[k]);
-  return first;
-}
-
 bool scene_adrift(const scene *sc)
 {
-  bool held = sc->structure || sc->stiffness > 0; /* of a structure the reader sees to it */
-  for (int j = 0; j < sc->n_contacts; ++j) {
-    const moving_contact c = scene_moving_contact(&sc->contacts[j]);
-    held |= scene_contact_stiffness(&sc->contacts[j], true) > 0 || scene_contact_restores(&sc->contacts[j], true);
+  if (!scene_is_oscillator(sc) || *sc->structure->stiffness.v > 0) return false;
+  bool held = false;
+  for (int j = 0; j < scene_contact_count(sc); ++j) {
+    const scene_contact *given = scene_contact_at(sc, j);
+    const moving_contact c = scene_moving_contact(given);
+    held |= scene_contact_stiffness(given, true) > 0 || scene_contact_restores(given, true);
     held |= (c.law.gap > 0 || c.law.load > 0) && moving_contact_stuck_stiffness(&c) > 0;
   }
   return !held;
@@ -71,26 +50,9 @@ static void move_base(const scene_base *base, int n, model_load *load)
 
 hc_status scene_model(const scene *sc, model **out)
 {
-  const bool moves = scene_base_moves(sc);
-  if (sc->structure) {
-    const hc_status made = structure_model(sc->structure, out);
-    if (made == HC_OK && sc->structure->base)
-      move_base(&sc->base, sc->structure->n, (*out)->loads + (*out)->n_loads - 1);
-    return made;
-  }
-  const int n_contacts = scene_model_contact(sc, sc->n_contacts);
-  hc_status st = model_oscillator(sc->mass, sc->damping, sc->stiffness, moves ? sc->mass : sc->force, n_contacts, out);
-  if (st != HC_OK) return st;
-  if (moves) move_base(&sc->base, 1, (*out)->loads);
-  model_contact *to = (*out)->contacts;
-  for (int j = 0; j < sc->n_contacts; to += scene_contact_parts(&sc->contacts[j++])) {
-    const scene_contact *c = &sc->contacts[j];
-    const moving_contact one = scene_moving_contact(c);
-    *(*out)->stiffness += scene_contact_slope(c);
-    to->law = one.law, *to->tangent = one.cu[0], *to->normal = one.cv[0];
-    if (scene_contact_is_composed(c)) scene_contact_put(c, 1, (double[]){1}, to);
-  }
-  return HC_OK;
+  const hc_status made = structure_model(sc->structure, out);
+  if (made == HC_OK && sc->structure->base) move_base(&sc->base, sc->structure->n, (*out)->loads + (*out)->n_loads - 1);
+  return made;
 }
 
 /* [gate.amplitude] the regularised law's own error; a coarser law than usual is what somebody wants to see. */
@@ -107,7 +69,7 @@ hc_status scene_setup(const scene *sc, compare_setup *out)
                          .transient = sc->transient,
                          .compare = sc->compare,
                          .limits = &sc->gate,
-                         .reduction = sc->structure ? sc->structure->reduction_error : 0};
+                         .reduction = sc->structure->reduction_error};
   if (sc->transient.regularisation <= TRANSIENT_USUAL_REGULARISATION)
     out->transient.regularisation_error = CHECKED_TO * sc->gate.most.amplitude;
   return st;

@@ -4,12 +4,35 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "hbm/hbm_settings.h"
 #include "numerics/base/constants.h"
 #include "numerics/base/growing.h"
+#include "numerics/base/message.h"
+#include "numerics/base/number.h"
 #include "numerics/dense.h"
 #include "numerics/norm.h"
 
 scene_structure *structure_new(void) { return calloc(1, sizeof(scene_structure)); }
+
+scene_structure *structure_new_oscillator(double mass, double damping, double stiffness, double force)
+{
+  scene_structure *s = structure_new();
+  if (!s) return NULL;
+  s->n = 1;
+  s->is_oscillator = true;
+  const double numbers[] = {mass, damping, stiffness};
+  structure_matrix *const matrices[] = {&s->mass, &s->damping, &s->stiffness};
+  structure_load *load = structure_add_load(s);
+  for (int i = 0; load && i < 3; ++i) {
+    if ((matrices[i]->v = malloc(sizeof *numbers))) *matrices[i]->v = numbers[i];
+    else load = NULL;
+  }
+  if (!load) return structure_free(s), NULL;
+  *load->direction = 1;
+  load->amplitude = force;
+  load->harmonic = 1;
+  return s;
+}
 
 void structure_free_matrix(structure_matrix *m)
 {
@@ -101,7 +124,15 @@ structure_contact *structure_add_contact(scene_structure *s)
   if (!list) return NULL;
   structure_contact *c = &(s->contacts = list)[s->n_contacts++];
   c->tangent_2 = c->tangent + s->n, c->normal = c->tangent_2 + s->n;
+  c->by_angle = s->is_oscillator;
   return c;
+}
+
+void structure_drop_contact(scene_structure *s, int j)
+{
+  free(s->contacts[j].tangent); /* with the others behind it */
+  --s->n_contacts;
+  memmove(s->contacts + j, s->contacts + j + 1, (size_t)(s->n_contacts - j) * sizeof *s->contacts);
 }
 
 void structure_keep_response(scene_structure *s, int r)
@@ -291,7 +322,9 @@ static void set_contact(const scene_structure *s, const structure_contact *c, co
   to->law = scene_contact_law(&c->given);
   memcpy(to->tangent, tangent, bytes);
   memcpy(to->normal, c->normal, bytes);
-  if (c->by_angle) model_direction(c->given.angle_deg, to->tangent, to->normal);
+  if (!c->by_angle) return;
+  const moving_contact one = scene_moving_contact(&c->given);
+  *to->tangent = *one.cu, *to->normal = *one.cv;
 }
 
 static void set_pair(const scene_structure *s, const structure_contact *c, model_contact to[2])
@@ -305,12 +338,14 @@ static void set_pair(const scene_structure *s, const structure_contact *c, model
   }
 }
 
-/* The loads of the model: one for every harmonic there is, in ascending order; returns how many. */
+/* The loads of the model: one for every harmonic there is, in ascending order; returns how many. Beside a base that
+ * moves an oscillator's own load is 0, and none. */
 static int harmonics(const scene_structure *s, int *harmonic)
 {
   int n = 0;
+  const int n_loads = s->is_oscillator && s->base ? 0 : s->n_loads;
   for (int k = 0; k <= HBM_MAX_HARMONICS; ++k)
-    for (int i = 0; i < s->n_loads; ++i)
+    for (int i = 0; i < n_loads; ++i)
       if (s->loads[i].harmonic == k && (n == 0 || harmonic[n - 1] != k)) harmonic[n++] = k;
   return n;
 }
@@ -338,6 +373,7 @@ const char *structure_response_name(const scene_structure *s, int r, char *text,
 {
   char name[STRUCTURE_WORD];
   int dof = 0;
+  if (s->is_oscillator) return snprintf(text, size, "x"), text;
   if (s->n_responses > 0 && !s->responses[r].by_node)
     return structure_direction_name(s, s->responses[r].direction, text, size);
   if (s->n_responses == 0) dof = forced_dof(s);
@@ -408,9 +444,10 @@ hc_status structure_model(const scene_structure *s, model **out)
   model_contact *to = m->contacts;
   for (int j = 0; j < s->n_contacts; ++j) {
     const structure_contact *c = &s->contacts[j];
-    add_outer(s->n, scene_contact_slope(&c->given), c->normal, c->normal, m->stiffness);
+    const double *across = c->by_angle ? (const double[]){1} : c->normal;
+    add_outer(s->n, scene_contact_slope(&c->given), across, across, m->stiffness);
     if (scene_contact_is_composed(&c->given))
-      scene_contact_put(&c->given, s->n, c->normal, to), to += scene_contact_parts(&c->given);
+      scene_contact_put(&c->given, s->n, across, to), to += scene_contact_parts(&c->given);
     else if (is_pair(s, c)) set_pair(s, c, to), to += 2;
     else set_contact(s, c, c->tangent, to++);
   }

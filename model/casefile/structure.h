@@ -1,9 +1,12 @@
-/* structure.h - what a case says with `structure`, its loads, contacts and responses, as written; the damping matrix
- * that follows, and its model. Degrees of freedom count from 0 here, from 1 in a file. Vectors are dense, [n]. */
+/* structure.h - what a case says with `structure`, or `oscillator`: its loads, contacts and responses, as written; the
+ * damping matrix that follows, and its model. Degrees of freedom count from 0 here, from 1 in a file. Vectors are
+ * dense, [n]. */
 #pragma once
 
+#include "model/casefile/contact_model.h"
 #include "model/casefile/matrices/matrix_file.h"
-#include "model/casefile/scene.h"
+
+enum { SCENE_MAX_CONTACTS = 16 /* of an oscillator in a case file; others have any number */ };
 
 /* Where something was given: the set-th assignment from 1, or 0 and a line and column of the file; line 0: nowhere. */
 typedef struct case_place {
@@ -42,7 +45,7 @@ typedef struct structure_contact {
   double *tangent, *tangent_2, *normal; /* [n] [1] u = tangent . x, v = normal . x; all 0 where there is none */
   scene_contact given;                  /* its scalars; kt = mu = 0 without a tangent, kn = gap = 0 without a normal */
   double area;   /* of a pair of nodes, given.law's stiffnesses being per area times this; 0: none */
-  bool by_angle; /* they came from given.angle_deg: one degree of freedom */
+  bool by_angle; /* of one degree of freedom: given.angle_deg and the law say where it acts, and they are 0 */
   case_place place;
 } structure_contact;
 
@@ -68,8 +71,9 @@ typedef struct structure_node { /* of the finite-element mesh: which degree of f
   char direction; /* 'x', 'y' or 'z' */
 } structure_node;
 
-struct scene_structure {
+typedef struct scene_structure {
   int n;
+  bool is_oscillator; /* written with `oscillator`: n = 1, one load, contacts by_angle */
   bool is_sparse; /* case_read_sparse: its matrices are kept as they came, and neither checked nor resolved */
   structure_matrix mass, stiffness, damping; /* damping.v: what results from any kind of damping */
   structure_damping how;
@@ -91,10 +95,12 @@ struct scene_structure {
   double reduction_error; /* [1] of the receptance, that a reduction stated; 0: none did */
   double reduction_at;    /* the frequency where, in the sweep's unit */
   case_place place;
-};
+} scene_structure;
 
-/* An empty one; a copy that shares nothing; free takes NULL. NULL when out of memory. */
+/* An empty one; an oscillator, which has a load of harmonic 1 and no contacts; a copy that shares nothing; free takes
+ * NULL. NULL when out of memory. */
 scene_structure *structure_new(void);
+scene_structure *structure_new_oscillator(double mass, double damping, double stiffness, double force);
 scene_structure *structure_copy(const scene_structure *s);
 void structure_free(scene_structure *s);
 
@@ -109,10 +115,14 @@ void structure_clear_loads(scene_structure *s);
 void structure_clear_contacts(scene_structure *s);
 void structure_clear_responses(scene_structure *s);
 
+/* Contact j is gone, and those behind it move up. */
+void structure_drop_contact(scene_structure *s, int j);
+
 /* Only response r, 0 <= r < n_responses, stays; nothing to do where the default is all there is. */
 void structure_keep_response(scene_structure *s, int r);
 
-/* One more at the end, with vectors of zeros and all else 0; NULL when out of memory. */
+/* One more at the end, with vectors of zeros and all else 0, an oscillator's contact by_angle; NULL when out of memory.
+ */
 structure_load *structure_add_load(scene_structure *s);
 structure_contact *structure_add_contact(scene_structure *s);
 structure_response *structure_add_response(scene_structure *s);
@@ -146,10 +156,10 @@ const char *structure_direction_name(const scene_structure *s, const double *dir
 hc_status nodes_add(scene_structure *s, int dof, int node, char direction);
 
 /* The file into s->nodes. HC_BAD_INPUT: "PATH:LINE:COLUMN: ..." in m; HC_IO: words to follow its name; HC_NO_MEMORY. */
-hc_status nodes_file_read(const char *path, scene_structure *s, message *m);
+hc_status nodes_file_read(const char *path, scene_structure *s, struct message *m);
 
 /* The same from text[length], which `name` stands for. */
-hc_status nodes_file_parse(const char *name, const char *text, size_t length, scene_structure *s, message *m);
+hc_status nodes_file_parse(const char *name, const char *text, size_t length, scene_structure *s, struct message *m);
 
 /* ---- the model ---- */
 
@@ -162,7 +172,8 @@ hc_status structure_model(const scene_structure *s, model **out);
 /* The first of the model's contacts that contact j is, for 0 <= j <= n_contacts: n_contacts gives their number. */
 int structure_model_contact(const scene_structure *s, int j);
 
-/* The number of responses; the name of one, its node `1328 z` or its direction, in text[size], which is returned. */
+/* The number of responses; the name of one, its node `1328 z` or its direction, an oscillator's x, in text[size], which
+ * is returned. */
 int structure_response_count(const scene_structure *s);
 const char *structure_response_name(const scene_structure *s, int r, char *text, size_t size);
 
@@ -191,7 +202,7 @@ hc_status structure_massless_motion(int n, const double *M, double *x, bool *mas
 hc_status structure_undamped_mode(const scene_structure *s, double *omega);
 
 /* The degrees of freedom that move most, at most four, in words; x is used up. */
-void structure_describe_motion(const scene_structure *s, double *x, message *m);
+void structure_describe_motion(const scene_structure *s, double *x, struct message *m);
 
 /* s->damping.v from the kind of damping: alpha M + beta K; or for modal damping M Phi diag(2 z omega) Phi^T M, the
  * columns of Phi being the modes of M and K with Phi^T M Phi = 1 (Craig and Kurdila, Fundamentals of Structural

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "numerics/base/message.h"
 #include "numerics/dense.h"
 #include "numerics/norm.h"
 

@@ -1,4 +1,4 @@
-/* yaml_lists.c - the loads and contacts of a structure, see case_reader.h. */
+/* yaml_lists.c - the loads of a structure, and contacts, see case_reader.h. */
 #include <string.h>
 
 #include "model/casefile/case_reader.h"
@@ -49,12 +49,13 @@ hc_status yaml_entry_part(case_reader *r, const field *f, int j, const yaml_node
 hc_status yaml_field_read(case_reader *r, const field *f, const yaml_node_t *key, const yaml_node_t *value, int j,
                           void *base)
 {
-  if (!r->sc.structure && f->flags & FIELD_STRUCTURE)
+  if (scene_is_oscillator(&r->sc) && f->flags & FIELD_STRUCTURE)
     return yaml_refuse(r, key, "%s is for a structure, expected `structure` instead of `oscillator` with it",
                        YAML_QUOTED(key));
   if (is_of_pairs(f)) return not_of_one(r, key, f->name);
   const hc_status st = yaml_give(r, f, key, value);
   if (st != HC_OK) return st;
+  if (f->flags & FIELD_OSCILLATOR) base = r->sc.structure;
   if (f->kind != FIELD_PART) return yaml_scene_value(r, f, j, base, value);
   return field_is_in_list(f) ? yaml_entry_part(r, f, j, value) : yaml_structure_part(r, f, value);
 }
@@ -123,7 +124,9 @@ hc_status yaml_loads_read(case_reader *r, const yaml_node_t *node)
 static hc_status missing(case_reader *r, int j, const field *f, const char *has)
 {
   message *m = case_blame(r, r->sc.structure->contacts[j].place);
-  message_add(m, "missing key `%s` in `contacts[%d]`, which has a %s, expected ", f->name, j, has ? has : "law");
+  message_add(m, "missing key `%s` in `contacts[%d]`, ", f->name, j);
+  if (!scene_is_oscillator(&r->sc)) message_add(m, "which has a %s, ", has ? has : "law");
+  message_add(m, "expected ");
   field_expected(f, m);
   return HC_BAD_INPUT;
 }
@@ -180,8 +183,10 @@ static hc_status check_contact(case_reader *r, int j)
 hc_status yaml_contact_read(case_reader *r, const yaml_node_t *node, int j)
 {
   scene_structure *s = r->sc.structure;
-  hc_status st =
-      check_mapping(r, node, "contacts", j, "{tangential_stiffness: 100, friction: 0.3, preload: 5, tangent: 1}");
+  hc_status st = check_mapping(r, node, "contacts", j,
+                               s->is_oscillator
+                                   ? "{name: ..., tangential_stiffness: ..., ...}"
+                                   : "{tangential_stiffness: 100, friction: 0.3, preload: 5, tangent: 1}");
   if (st != HC_OK) return st;
   if (j == s->n_contacts && !structure_add_contact(s)) return case_out_of_memory(r);
   structure_contact *c = &s->contacts[j];
@@ -189,8 +194,13 @@ hc_status yaml_contact_read(case_reader *r, const yaml_node_t *node, int j)
   field_contact_defaults(&c->given);
   memset(c->tangent, 0, 3 * (size_t)s->n * sizeof *c->tangent); /* with the others behind it */
   c->place = yaml_place(r, node);
+  if (s->is_oscillator) r->contact_has[j] = ~0ull; /* what is missing is found here and now */
   st = yaml_fields_read(r, node, "contacts", j, &c->given, false);
-  return st == HC_OK ? check_contact(r, j) : st;
+  if (!s->is_oscillator) return st == HC_OK ? check_contact(r, j) : st;
+  if (st == HC_OK) st = check_needed(r, j, NULL);
+  if (st == HC_OK) st = case_check_law(r, j, &c->given, c->place);
+  memcpy(r->contact_field_at[j], r->at, sizeof r->at);
+  return st;
 }
 
 hc_status yaml_contacts_read(case_reader *r, const yaml_node_t *node)
@@ -201,8 +211,10 @@ hc_status yaml_contacts_read(case_reader *r, const yaml_node_t *node)
   if (st != HC_OK) return st;
   for (int i = 0; i < yaml_length(node) && st == HC_OK; ++i) {
     const yaml_node_t *entry = yaml_entry(r, node, i);
-    const bool pairs =
-        entry->type == YAML_MAPPING_NODE && (yaml_find(r, entry, "pairs") || yaml_find(r, entry, "axes"));
+    const bool pairs = !s->is_oscillator && entry->type == YAML_MAPPING_NODE &&
+                       (yaml_find(r, entry, "pairs") || yaml_find(r, entry, "axes"));
+    if (s->is_oscillator && s->n_contacts == SCENE_MAX_CONTACTS)
+      return yaml_refuse(r, entry, "one contact too many, expected at most %d", SCENE_MAX_CONTACTS);
     st = pairs ? yaml_pairs_read(r, entry) : yaml_contact_read(r, entry, s->n_contacts);
   }
   return st;

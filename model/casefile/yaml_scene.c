@@ -3,62 +3,31 @@
 
 #include "model/casefile/case_reader.h"
 
-/* A section that is a mapping, or one contact of an oscillator. */
-static hc_status read_section(case_reader *r, const field_section *s, int j, void *base, const yaml_node_t *node)
+/* A section that is a mapping. */
+static hc_status read_section(case_reader *r, const field_section *s, const yaml_node_t *node)
 {
   if (node->type != YAML_MAPPING_NODE) {
     message *m = yaml_blame(r, node);
-    message_add(m, j >= 0 ? "%s[%d]" : "%s", s->name, j);
-    message_add(m, " is %s, expected a mapping such as {", yaml_node_what(node));
+    message_add(m, "%s is %s, expected a mapping such as {", s->name, yaml_node_what(node));
     for (int i = 0, n = 0; i < field_count() && n < 2; ++i)
       if (!strcmp(field_at(i)->section, s->name)) message_add(m, "%s: ..., ", field_at(i)->name), ++n;
     message_add(m, "...}");
     return HC_BAD_INPUT;
   }
-  const hc_status st = yaml_fields_read(r, node, s->name, j, base, false);
+  const hc_status st = yaml_fields_read(r, node, s->name, -1, &r->sc, false);
   if (st != HC_OK) return st;
   const field *amplitude = field_named("base", "amplitude");
   if (!strcmp(s->name, "base") && !case_given(r, amplitude) && !yaml_given_rival(r, amplitude))
     return yaml_refuse(r, node, "missing key `amplitude` in `base`, expected a number >= 0, or `acceleration`");
-  const unsigned long long has = case_contact_given(r);
   for (int i = 0; i < field_count(); ++i) {
     const field *f = field_at(i), *rival = field_rival(f, 0);
     if (strcmp(f->section, s->name) || f->fallback || f->flags & FIELD_STRUCTURE) continue;
-    if (case_given(r, f) || yaml_given_rival(r, f) || (j >= 0 && !case_contact_needs(base, has, f))) continue;
+    if (case_given(r, f) || yaml_given_rival(r, f)) continue;
     message *m = yaml_blame(r, node);
-    message_add(m, j >= 0 ? "missing key `%s` in `%s[%d]" : "missing key `%s` in `%s", f->name, s->name, j);
-    message_add(m, "`, expected ");
+    message_add(m, "missing key `%s` in `%s`, expected ", f->name, s->name);
     field_expected(f, m);
     if (rival) message_add(m, ", or `%s`", rival->name);
     return HC_BAD_INPUT;
-  }
-  return HC_OK;
-}
-
-hc_status yaml_scene_contact(case_reader *r, const yaml_node_t *node, int j)
-{
-  yaml_forget_fields(r, FIELD_IN_CONTACT);
-  field_contact_defaults(&r->sc.contacts[j]);
-  r->contact_has[j] = ~0ull; /* what is missing is found here and now */
-  r->contact_at[j] = yaml_place(r, node);
-  hc_status st = read_section(r, field_find_section("contacts", 8), j, &r->sc.contacts[j], node);
-  if (st == HC_OK) st = case_check_law(r, j, &r->sc.contacts[j], r->contact_at[j]);
-  memcpy(r->contact_field_at[j], r->at, sizeof r->at);
-  return st;
-}
-
-hc_status yaml_scene_contacts(case_reader *r, const yaml_node_t *node)
-{
-  if (node->type != YAML_SEQUENCE_NODE)
-    return yaml_refuse(r, node, "contacts is %s, expected a list of contacts, or [] for none", yaml_node_what(node));
-  memset(r->sc.contacts, 0, sizeof r->sc.contacts);
-  r->sc.n_contacts = 0;
-  for (int i = 0; i < yaml_length(node); ++i) {
-    const yaml_node_t *entry = yaml_entry(r, node, i);
-    if (r->sc.n_contacts == SCENE_MAX_CONTACTS)
-      return yaml_refuse(r, entry, "one contact too many, expected at most %d", SCENE_MAX_CONTACTS);
-    hc_status st = yaml_scene_contact(r, entry, r->sc.n_contacts++);
-    if (st != HC_OK) return st;
   }
   return HC_OK;
 }
@@ -68,7 +37,7 @@ static hc_status read_top_level(case_reader *r, const yaml_node_t *key, const ya
   hc_status st = yaml_check_key(r, key);
   if (st != HC_OK) return st;
   const field *f = field_find("", yaml_node_text(key), key->data.scalar.length);
-  if (f && f->kind == FIELD_PART && r->sc.structure) { /* response */
+  if (f && f->kind == FIELD_PART && !scene_is_oscillator(&r->sc)) { /* response */
     st = yaml_give(r, f, key, value);
     return st == HC_OK ? yaml_structure_part(r, f, value) : st;
   }
@@ -79,12 +48,10 @@ static hc_status read_top_level(case_reader *r, const yaml_node_t *key, const ya
   if (at->line > 0) return yaml_duplicate_key(r, key, *at);
   *at = yaml_place(r, key);
   /* What a section holds, wherever it stands. */
-  const bool contacts = !strcmp(s->name, "contacts");
   if (!strcmp(s->name, "structure")) return yaml_structure_read(r, value);
-  if (r->sc.structure && contacts) return yaml_contacts_read(r, value);
-  if (r->sc.structure && !strcmp(s->name, "forcing")) return yaml_loads_read(r, value);
-  if (contacts) return yaml_scene_contacts(r, value);
-  return read_section(r, s, -1, &r->sc, value);
+  if (!strcmp(s->name, "contacts")) return yaml_contacts_read(r, value);
+  if (!scene_is_oscillator(&r->sc) && !strcmp(s->name, "forcing")) return yaml_loads_read(r, value);
+  return read_section(r, s, value);
 }
 
 /* The first key of that name, -1 if there is none. */
@@ -111,6 +78,10 @@ hc_status yaml_scene_read(case_reader *r, const yaml_node_t *root)
                        yaml_place(r, first).line, yaml_node_text(last));
   }
   hc_status st = HC_OK;
+  if (structure < 0) {
+    if (!(r->sc.structure = structure_new_oscillator(0, 0, 0, 0))) return case_out_of_memory(r);
+    r->owns_structure = true;
+  }
   if (structure >= 0) st = read_top_level(r, yaml_key(r, root, structure), yaml_value(r, root, structure), given);
   for (int i = 0; i < yaml_keys(root) && st == HC_OK; ++i)
     if (i != structure) st = read_top_level(r, yaml_key(r, root, i), yaml_value(r, root, i), given);
@@ -120,12 +91,12 @@ hc_status yaml_scene_read(case_reader *r, const yaml_node_t *root)
     message *m = NULL;
     /* a structure has neither mass nor force as an oscillator has */
     const bool forcing = !strcmp(s->name, "forcing"), of_oscillator = !strcmp(s->name, "oscillator") || forcing;
-    if (given[i].line > 0 || (r->sc.structure && of_oscillator)) continue;
+    if (given[i].line > 0 || (structure >= 0 && of_oscillator)) continue;
     if (forcing && given[field_find_section("base", 4) - field_section_at(0)].line > 0) continue;
     for (int j = 0; j < field_count(); ++j) {
       const field *f = field_at(j);
       if (strcmp(f->section, s->name) || f->fallback || f->scale != 0) continue;
-      if (f->flags & (FIELD_ELSEWHERE | FIELD_STRUCTURE)) continue;
+      if (f->flags & (FIELD_IN_CONTACT | FIELD_STRUCTURE)) continue;
       if (!m) message_add(m = yaml_blame(r, root), "missing section `%s`, expected `%s: {", s->name, s->name);
       else message_add(m, ", ");
       message_add(m, "%s: ...", f->name);

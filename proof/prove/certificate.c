@@ -45,7 +45,7 @@ static json_t *forcing(const model *m, double omega)
  * decimals; else 0. */
 static double inclined(const scene *sc, int j)
 {
-  if (sc->structure && !sc->structure->contacts[j].by_angle) return 0;
+  if (!sc->structure->contacts[j].by_angle) return 0;
   const double angle = scene_contact_at(sc, j)->angle_deg;
   return fabs(angle) < 90 ? angle : 0;
 }

@@ -19,8 +19,8 @@ static const double GRAZING = 1e-2;
 
 static double clearance(const scene *sc, const steady_reference *r)
 {
-  double c, s, gap = sc->contacts[0].law.gap;
-  scene_direction(&sc->contacts[0], &c, &s);
+  double c, s, gap = sc->structure->contacts[0].given.law.gap;
+  scene_direction(&sc->structure->contacts[0].given, &c, &s);
   return fmin(fabs(r->max * s + gap), fabs(r->min * s + gap)) / fabs(gap);
 }
 

@@ -9,7 +9,8 @@ static const double SOLVED = 1e-11;
 /* Case 2 grazes where |F0/(K - M w^2 + i C w)| sin(alpha) = |gap|, a quadratic equation for w^2. */
 static double grazing_omega(const scene *sc, int sign)
 {
-  double K = sc->stiffness, M = sc->mass, C = sc->damping, r = sc->force * sin(PI / 4) / sc->contacts[0].law.gap;
+  double K = *sc->structure->stiffness.v, M = *sc->structure->mass.v, C = *sc->structure->damping.v,
+         r = sc->structure->loads->amplitude * sin(PI / 4) / sc->structure->contacts[0].given.law.gap;
   double b = 2 * K * M - C * C, root = sqrt(b * b - 4 * M * M * (K * K - r * r));
   return sqrt((b + sign * root) / (2 * M * M));
 }
@@ -47,13 +48,13 @@ static void amplitude_equal_to_the_gap(CHECK_STATE)
 /* Where T = mu N exactly, and an ulp beside it: the same force as where it sticks, with ten times mu. */
 static void on_the_edge_of_the_cone(CHECK_STATE)
 {
-  scene sc = load("cone_edge", NULL), sticks = LOAD("cone_edge", "contacts[0].friction=5"), beside = sc;
-  const double kt = sc.contacts[0].law.kt;
-  assert_true(kt == sc.contacts[0].law.mu * sc.contacts[0].law.kn);
+  scene sc = load("cone_edge", NULL), sticks = LOAD("cone_edge", "contacts[0].friction=5"), beside = scene_own(&sc);
+  const double kt = sc.structure->contacts[0].given.law.kt;
+  assert_true(kt == sc.structure->contacts[0].given.law.mu * sc.structure->contacts[0].given.law.kn);
   same_answers(&sc, &sticks, 1, SOLVED);
-  beside.contacts[0].law.kt = nextafter(kt, 0);
+  beside.structure->contacts[0].given.law.kt = nextafter(kt, 0);
   same_answers(&sc, &beside, 1, SOLVED);
-  beside.contacts[0].law.kt = nextafter(kt, 1e9);
+  beside.structure->contacts[0].given.law.kt = nextafter(kt, 1e9);
   same_answers(&sc, &beside, 1, SOLVED);
 }
 
@@ -63,7 +64,7 @@ static void tangential_and_normal_force_vanish_together(CHECK_STATE)
   scene sc = load("vanishing_together", NULL), sticks = LOAD("vanishing_together", "contacts[0].friction=1000");
   same_answers(&sc, &sticks, 1, SOLVED);
   hbm_curve p = solutions(&sc, 25), q;
-  sc.contacts[0].law.mu = 0.03;
+  sc.structure->contacts[0].given.law.mu = 0.03;
   q = solutions(&sc, 25);
   CHECK_LE(1e-3 * norm_of(p.n_coef, p.X), fabs(p.X[1] - q.X[1]) + fabs(p.X[2] - q.X[2]), "less friction does slip");
   hbm_curve_free(&p);
@@ -76,7 +77,7 @@ static void tangential_and_normal_force_vanish_together(CHECK_STATE)
 static void angle_0_is_a_jenkins_element(CHECK_STATE)
 {
   scene sc = load("angle_0", NULL), one = LOAD("angle_0", "hbm.harmonics=1");
-  const double kt = one.contacts[0].law.kt, fc = 0.05 * 200 * 0.5;
+  const double kt = one.structure->contacts[0].given.law.kt, fc = 0.05 * 200 * 0.5;
   for (int i = 0; i < sc.compare.omega.n; ++i) {
     double w = sc.compare.omega.v[i];
     hbm_curve at = solutions(&sc, w), first = solutions(&one, w);
@@ -86,8 +87,9 @@ static void angle_0_is_a_jenkins_element(CHECK_STATE)
     assert_true(A > fc / kt);
     double phi = acos(1 - 2 * fc / (kt * A));
     double a1 = kt * A / PI * (phi - sin(2 * phi) / 2), b1 = -kt * A / PI * sin(phi) * sin(phi);
-    CHECK_NEAR(hypot((one.stiffness - one.mass * w * w) * A + a1, one.damping * w * A - b1), one.force,
-               1e-9 * one.force, "at %g", w);
+    CHECK_NEAR(hypot((*one.structure->stiffness.v - *one.structure->mass.v * w * w) * A + a1,
+                     *one.structure->damping.v * w * A - b1),
+               one.structure->loads->amplitude, 1e-9 * one.structure->loads->amplitude, "at %g", w);
     hbm_curve_free(&at);
     hbm_curve_free(&first);
   }
@@ -104,15 +106,16 @@ static void angle_90_is_a_stop(CHECK_STATE)
   scene one = LOAD("angle_90", "hbm.harmonics=1");
   same_answers(&sc, &free_of, 1, SOLVED);
   for (int i = 1; i < 3; ++i) {
-    double w = one.compare.omega.v[i], kn = one.contacts[0].law.kn;
+    double w = one.compare.omega.v[i], kn = one.structure->contacts[0].given.law.kn;
     hbm_curve at = solutions(&one, w);
-    double m = at.X[0], A = hypot(at.X[1], at.X[2]), g = one.contacts[0].law.gap + m;
+    double m = at.X[0], A = hypot(at.X[1], at.X[2]), g = one.structure->contacts[0].given.law.gap + m;
     assert_true(A > -g);
     double p = acos(-g / A), a0 = kn / PI * (g * p + A * sin(p)),
            a1 = kn / PI * (2 * g * sin(p) + A * (p + sin(p) * cos(p)));
-    CHECK_NEAR(one.stiffness * m, -a0, 1e-9 * one.force, "mean at %g", w);
-    CHECK_NEAR(hypot((one.stiffness - one.mass * w * w) * A + a1, one.damping * w * A), one.force, 1e-9 * one.force,
-               "at %g", w);
+    CHECK_NEAR(*one.structure->stiffness.v * m, -a0, 1e-9 * one.structure->loads->amplitude, "mean at %g", w);
+    CHECK_NEAR(hypot((*one.structure->stiffness.v - *one.structure->mass.v * w * w) * A + a1,
+                     *one.structure->damping.v * w * A),
+               one.structure->loads->amplitude, 1e-9 * one.structure->loads->amplitude, "at %g", w);
     hbm_curve_free(&at);
   }
 }
@@ -159,13 +162,14 @@ static void gap_0_vibrates_at_its_bilinear_frequency(CHECK_STATE)
 /* Two equal contacts are one of twice the stiffness; and nothing hangs on the order of sixteen. */
 static void contacts_that_switch_together(CHECK_STATE)
 {
-  scene two = load("two_at_once", NULL), one = two, sixteen = load("sixteen", NULL), reversed = sixteen;
-  one.n_contacts = 1;
-  one.contacts[0].law.kt *= 2;
-  one.contacts[0].law.kn *= 2;
+  scene two = load("two_at_once", NULL), one = scene_own(&two), sixteen = load("sixteen", NULL),
+        reversed = scene_own(&sixteen);
+  scene_keep_contacts(&one, 1);
+  one.structure->contacts[0].given.law.kt *= 2;
+  one.structure->contacts[0].given.law.kn *= 2;
   same_answers(&two, &one, 1, SOLVED);
-  assert_int_equal(sixteen.n_contacts, SCENE_MAX_CONTACTS);
-  for (int j = 0; j < 16; ++j) reversed.contacts[j] = sixteen.contacts[15 - j];
+  assert_int_equal(sixteen.structure->n_contacts, SCENE_MAX_CONTACTS);
+  for (int j = 0; j < 16; ++j) reversed.structure->contacts[j].given = sixteen.structure->contacts[15 - j].given;
   same_answers(&sixteen, &reversed, 1, SOLVED);
 }
 

@@ -14,7 +14,8 @@ static void resonance_has_its_closed_form(CHECK_STATE)
   CHECK_MADE(timeint, ti, scene_timeint(&sc, &ti));
   for (int i = 0; i < sc.compare.omega.n; ++i) {
     double w = sc.compare.omega.v[i];
-    double complex x = sc.force / (sc.stiffness - sc.mass * w * w + I * sc.damping * w);
+    double complex x = sc.structure->loads->amplitude /
+                       (*sc.structure->stiffness.v - *sc.structure->mass.v * w * w + I * *sc.structure->damping.v * w);
     hbm_curve at = solutions(&sc, w);
     scene_state y = {.x = 0};
     assert_int_equal(at.n, 1);
@@ -41,8 +42,9 @@ static void resonance_with_a_contact_balances_its_energy(CHECK_STATE)
     for (int k = 0; k < at.n; ++k) {
       const double *X = solution(&at, k);
       double A = hypot(X[1], X[2]);
-      const double solved = 1e-10 * sc.stiffness * A * A; /* hbm.tolerance, of K A, times A */
-      CHECK_NEAR(sc.force * X[2], sc.damping * w * A * A, solved, "solution %d at %g", k, w);
+      const double solved = 1e-10 * *sc.structure->stiffness.v * A * A; /* hbm.tolerance, of K A, times A */
+      CHECK_NEAR(sc.structure->loads->amplitude * X[2], *sc.structure->damping.v * w * A * A, solved,
+                 "solution %d at %g", k, w);
       CHECK_NEAR(A, hypot(solution(&back, at.n - 1 - k)[1], solution(&back, at.n - 1 - k)[2]), 1e-6 * A,
                  "solution %d at %g, from above", k, w);
     }
@@ -132,7 +134,7 @@ static void no_force_is_rest(CHECK_STATE)
 {
   scene sc = load("no_force", NULL);
   for (double gap = -1; gap <= 1; ++gap) {
-    sc.contacts[0].law.gap = gap;
+    sc.structure->contacts[0].given.law.gap = gap;
     hbm_curve at = solutions(&sc, 9);
     assert_int_equal(at.n, 1);
     CHECK_LE(norm_of(at.n_coef, at.X), 0, "gap %g", gap);
@@ -143,9 +145,9 @@ static void no_force_is_rest(CHECK_STATE)
 /* Held by a soft, long spring: alpha = 0 with kt cos^2 and the limit mu N cos, but for N's changing by v/gap = 1e-9. */
 static void a_contact_of_friction_alone(CHECK_STATE)
 {
-  scene sc = load("friction_only", NULL), flat = sc;
-  flat.contacts[0].angle_deg = 0;
-  flat.contacts[0].law = (contact){.kt = 50, .kn = 40, .mu = 0.1 * sqrt(0.5), .gap = 1};
+  scene sc = load("friction_only", NULL), flat = scene_own(&sc);
+  flat.structure->contacts[0].given.angle_deg = 0;
+  flat.structure->contacts[0].given.law = (contact){.kt = 50, .kn = 40, .mu = 0.1 * sqrt(0.5), .gap = 1};
   same_answers(&sc, &flat, 1, 1e-7); /* v/gap = 4e-9 at most, and a response up to ten times as steep */
 }
 
@@ -155,10 +157,11 @@ static void a_contact_of_next_to_no_stiffness(CHECK_STATE)
   scene sc = load("soft", NULL);
   for (int i = 0; i < sc.compare.omega.n; ++i) {
     double w = sc.compare.omega.v[i];
-    double complex x = sc.force / (sc.stiffness - sc.mass * w * w + I * sc.damping * w);
+    double complex x = sc.structure->loads->amplitude /
+                       (*sc.structure->stiffness.v - *sc.structure->mass.v * w * w + I * *sc.structure->damping.v * w);
     hbm_curve at = solutions(&sc, w);
     double off = cabs(at.X[1] - I * at.X[2] - x) / cabs(x);
-    CHECK_LE(off, 4e-7 * cabs(x) / sc.force, "at %g", w);
+    CHECK_LE(off, 4e-7 * cabs(x) / sc.structure->loads->amplitude, "at %g", w);
     CHECK_LE(1e-11, off, "it does touch at %g", w);
     hbm_curve_free(&at);
   }

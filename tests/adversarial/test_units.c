@@ -24,19 +24,20 @@ static int read_rows(CHECK_STATE)
   return n_rows == 542 ? 0 : -1;
 }
 
-static scene in_units(scene sc, const units *u)
+static scene in_units(const scene *of, const units *u)
 {
+  scene sc = scene_own(of);
   const double stiffness = u->force / u->length;
-  sc.mass *= stiffness * u->time * u->time;
-  sc.damping *= stiffness * u->time;
-  sc.stiffness *= stiffness;
-  sc.force *= u->force;
+  *sc.structure->mass.v *= stiffness * u->time * u->time;
+  *sc.structure->damping.v *= stiffness * u->time;
+  *sc.structure->stiffness.v *= stiffness;
+  sc.structure->loads->amplitude *= u->force;
   sc.omega_from /= u->time;
   sc.omega_to /= u->time;
-  for (int j = 0; j < sc.n_contacts; ++j) {
-    sc.contacts[j].law.kt *= stiffness;
-    sc.contacts[j].law.kn *= stiffness;
-    sc.contacts[j].law.gap *= u->length;
+  for (int j = 0; j < sc.structure->n_contacts; ++j) {
+    sc.structure->contacts[j].given.law.kt *= stiffness;
+    sc.structure->contacts[j].given.law.kn *= stiffness;
+    sc.structure->contacts[j].given.law.gap *= u->length;
   }
   return sc;
 }
@@ -75,7 +76,7 @@ static void hbm_with(int force, int n_scenes)
       scene sc = exact_reference_scene(r->name, 10);
       sc.hbm.force = force;
       sc.hbm.samples = 512;
-      scene other = in_units(sc, &factors[f]);
+      scene other = in_units(&sc, &factors[f]);
       response a = response_of(&sc), b = response_of(&other);
       double d = solutions_apart(r->name, &a, &b, &factors[f]);
       CHECK_LE(d, INVARIANT, "%s, %s", r->name, factors[f].what);
@@ -138,7 +139,7 @@ static double transients_apart(const reference_scene *r, int law, const units *u
   scene sc = exact_reference_scene(r->name, 10);
   sc.transient.law = law;
   sc.transient.tolerance = 1e-12;
-  scene other = in_units(sc, u);
+  scene other = in_units(&sc, u);
   response from = response_of(&sc);
   double worst = 0, last = 0;
   CHECK_MADE(timeint, a, scene_timeint(&sc, &a));

@@ -154,7 +154,7 @@ static void locale_does_not_matter(void **state)
   written_numbers_come_back(state);
   scene sc;
   accepted(SMALLEST "gate: {mean: 2.5e-3}\n", "hbm.tolerance=1.5e-9", &sc);
-  assert_true(sc.damping == 0.4 && sc.gate.most.mean == 2.5e-3 && sc.hbm.tolerance == 1.5e-9);
+  assert_true(*sc.structure->damping.v == 0.4 && sc.gate.most.mean == 2.5e-3 && sc.hbm.tolerance == 1.5e-9);
   assert_string_equal(localeconv()->decimal_point, ","); /* and the host's locale is still its own */
   setlocale(LC_ALL, "C");
 }

@@ -6,6 +6,7 @@
 #include "model/casefile/case_file.h"
 #include "numerics/random.h"
 #include "tests/check.h"
+#include "tests/oscillator.h"
 
 /* Three lines: what is appended starts on line 4. */
 #define SMALLEST                                                                                                       \
@@ -86,6 +87,7 @@ static inline void accepted(const char *text, const char *set, scene *sc)
   if (st != HC_OK) print_error("%s%s%s: %s\n", text, set ? "--set " : "", set ? set : "", err.message);
   assert_int_equal(st, HC_OK);
   assert_string_equal(err.message, "");
+  if (st == HC_OK) scene_kept(*sc);
 }
 
 /* What case_echo writes of the scene, with the status it is to have; to free. */

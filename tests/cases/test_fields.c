@@ -26,7 +26,7 @@ static void defaults_are_those_of_the_interface(CHECK_STATE)
   assert_string_equal(sc.unit_length, "m");
   assert_string_equal(sc.unit_force, "N");
   assert_string_equal(sc.unit_time, "s");
-  assert_int_equal(sc.n_contacts, 0);
+  assert_int_equal(sc.structure->n_contacts, 0);
   assert_true(sc.hbm.harmonics == 5 && sc.hbm.keep_mean && sc.hbm.samples == 1024 &&
               sc.hbm.restart == HBM_RESTART_INTERPOLATED);
   assert_true(sc.hbm.continuation == HBM_CONTINUATION_AUTO && sc.hbm.tolerance == 1e-10);
@@ -55,6 +55,7 @@ static void rows_are_sound(CHECK_STATE)
     assert_true(f->offset < (f->flags & FIELD_IN_CONTACT     ? of_contact
                              : f->flags & FIELD_IN_LOAD      ? sizeof(structure_load)
                              : f->flags & FIELD_IN_STRUCTURE ? sizeof(scene_structure)
+                             : f->flags & FIELD_OSCILLATOR   ? sizeof(scene_structure)
                                                              : sizeof(scene)));
     assert_int_equal((f->flags & FIELD_IN_CONTACT) != 0, !strcmp(f->section, "contacts"));
     assert_int_equal((f->flags & FIELD_IN_LOAD) != 0, !strcmp(f->section, "forcing[]"));

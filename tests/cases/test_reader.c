@@ -27,10 +27,10 @@ static void everything_lands_where_it_belongs(CHECK_STATE)
   assert_string_equal(sc.unit_length, "mm");
   assert_string_equal(sc.unit_force, "kN");
   assert_string_equal(sc.unit_time, "ms");
-  assert_true(sc.mass == 1.5 && sc.damping == 0.25 && sc.stiffness == 0 && sc.force == 0 && sc.omega_from == 20 &&
-              sc.omega_to == 3);
-  assert_int_equal(sc.n_contacts, 2);
-  const scene_contact *a = &sc.contacts[0], *b = &sc.contacts[1];
+  assert_true(*sc.structure->mass.v == 1.5 && *sc.structure->damping.v == 0.25 && *sc.structure->stiffness.v == 0 &&
+              sc.structure->loads->amplitude == 0 && sc.omega_from == 20 && sc.omega_to == 3);
+  assert_int_equal(sc.structure->n_contacts, 2);
+  const scene_contact *a = &sc.structure->contacts[0].given, *b = &sc.structure->contacts[1].given;
   assert_true(a->law.kt == 1 && a->law.kn == 2 && a->law.mu == 3 && a->angle_deg == 90 && a->law.gap == -5);
   assert_true(b->law.kt == 6 && b->law.kn == 7 && b->law.mu == 8 && b->angle_deg == 9 && b->law.gap == 0);
   assert_true(sc.hbm.harmonics == HBM_AUTO && !sc.hbm.keep_mean && sc.hbm.force == HBM_FORCE_EXACT &&
@@ -54,7 +54,7 @@ static void harmless_forms_are_read(CHECK_STATE)
   accepted("# note\r\nforcing: {amplitude: +5}\r\noscillator:\r\n  mass: 1\r\n  damping: 0\r\n  stiffness: 1\r\nsweep: "
            "{omega: [1, 2]}\r\n",
            NULL, &sc);
-  assert_true(sc.force == 5);
+  assert_true(sc.structure->loads->amplitude == 5);
   accepted(SMALLEST "title: \"\"\ncontacts: []\n", NULL, &sc);
   assert_string_equal(sc.title, "");
   /* too few samples matter only when sampling */
@@ -99,7 +99,7 @@ static void too_many_are_refused(CHECK_STATE)
   for (int i = 0; i < SCENE_MAX_CONTACTS; ++i) n += (size_t)snprintf(text + n, sizeof text - n, "  - %s\n", CONTACT_1);
   scene sc;
   accepted(text, NULL, &sc);
-  assert_int_equal(sc.n_contacts, SCENE_MAX_CONTACTS);
+  assert_int_equal(sc.structure->n_contacts, SCENE_MAX_CONTACTS);
   snprintf(text + n, sizeof text - n, "  - %s\n", CONTACT_1);
   refused(text, NULL, "f:21:5: ", "one contact too many, expected at most 16");
   n = (size_t)snprintf(text, sizeof text, "%scompare:\n  omega: [1", SMALLEST);

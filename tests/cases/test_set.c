@@ -7,7 +7,7 @@ static void every_kind_can_be_set(CHECK_STATE)
 {
   scene sc;
   accepted(ONE, "oscillator.mass=2.5", &sc);
-  assert_true(sc.mass == 2.5);
+  assert_true(*sc.structure->mass.v == 2.5);
   accepted(ONE, " hbm.harmonics = 10 ", &sc);
   assert_int_equal(sc.hbm.harmonics, 10);
   accepted(ONE, "hbm.harmonics=auto", &sc);
@@ -43,16 +43,18 @@ static void contacts_are_reached_replaced_and_appended(CHECK_STATE)
 {
   scene sc;
   accepted(ONE, "contacts[0].gap=-1", &sc);
-  assert_true(sc.contacts[0].law.gap == -1 && sc.contacts[0].law.kt == 100);
+  assert_true(sc.structure->contacts[0].given.law.gap == -1 && sc.structure->contacts[0].given.law.kt == 100);
   accepted(ONE, "contacts=[]", &sc);
-  assert_int_equal(sc.n_contacts, 0);
+  assert_int_equal(sc.structure->n_contacts, 0);
   accepted(ONE, "contacts[0]={tangential_stiffness: 1, normal_stiffness: 2, friction: 3, angle_deg: 4}", &sc);
-  assert_true(sc.n_contacts == 1 && sc.contacts[0].law.kt == 1 && sc.contacts[0].law.gap == 0);
+  assert_true(sc.structure->n_contacts == 1 && sc.structure->contacts[0].given.law.kt == 1 &&
+              sc.structure->contacts[0].given.law.gap == 0);
   accepted(ONE, "contacts[1]=" CONTACT_1, &sc);
-  assert_int_equal(sc.n_contacts, 2);
-  assert_memory_equal(&sc.contacts[0], &sc.contacts[1], sizeof sc.contacts[0]);
+  assert_int_equal(sc.structure->n_contacts, 2);
+  assert_memory_equal(&sc.structure->contacts[0].given, &sc.structure->contacts[1].given,
+                      sizeof sc.structure->contacts[0].given);
   accepted(ONE, "contacts=[" CONTACT_1 ", " CONTACT_1 ", " CONTACT_1 "]", &sc);
-  assert_int_equal(sc.n_contacts, 3);
+  assert_int_equal(sc.structure->n_contacts, 3);
 }
 
 static void a_contact_may_be_appended_field_by_field(CHECK_STATE)
@@ -61,8 +63,8 @@ static void a_contact_may_be_appended_field_by_field(CHECK_STATE)
                        "contacts[0].angle_deg=0"};
   case_error err;
   CHECK_FILLED(scene, sc, case_parse("f", SMALLEST, strlen(SMALLEST), 4, set, &sc, &err));
-  assert_true(sc.n_contacts == 1 && sc.contacts[0].law.kt == 1 && sc.contacts[0].law.kn == 2 &&
-              sc.contacts[0].law.gap == 0);
+  assert_true(sc.structure->n_contacts == 1 && sc.structure->contacts[0].given.law.kt == 1 &&
+              sc.structure->contacts[0].given.law.kn == 2 && sc.structure->contacts[0].given.law.gap == 0);
   assert_int_equal(case_parse("f", SMALLEST, strlen(SMALLEST), 3, set, &sc, &err), HC_BAD_INPUT);
   assert_string_equal(err.message,
                       "--set contacts[0].tangential_stiffness=1: this appends a contact without `angle_deg`, expected "
@@ -136,7 +138,7 @@ static void sixteen_contacts_and_no_more(CHECK_STATE)
     list[i] = set[i];
   }
   CHECK_FILLED(scene, sc, case_parse("f", SMALLEST, strlen(SMALLEST), 16, list, &sc, &err));
-  assert_int_equal(sc.n_contacts, 16);
+  assert_int_equal(sc.structure->n_contacts, 16);
   assert_int_equal(case_parse("f", SMALLEST, strlen(SMALLEST), 17, list, &sc, &err), HC_BAD_INPUT);
   assert_non_null(strstr(err.message, "the case has 16 contacts, expected an index 0..15"));
 }

@@ -59,8 +59,8 @@ static scene impacts(void)
 {
   scene sc = scene_named("c2", 7, true, 64);
   sc.hbm.force = HBM_FORCE_EXACT;
-  sc.contacts[0].law = (contact){100, 1e6, 0.3, -0.5};
-  sc.damping = 0.05;
+  sc.structure->contacts[0].given.law = (contact){100, 1e6, 0.3, -0.5};
+  *sc.structure->damping.v = 0.05;
   return sc;
 }
 
@@ -210,24 +210,24 @@ static void a_structure_is_guessed_whole(CHECK_STATE)
   const scene sc = impacts();
   /* The same oscillator as two halves that a stiff spring holds together, each with half of everything: their motion is
    * x = y. The guess is of all degrees of freedom, and leads to the oscillator's solution. */
-  const double K = 1e3 * sc.stiffness;
+  const double K = 1e3 * *sc.structure->stiffness.v;
   double tangent, normal;
   CHECK_MADE(model, m, model_new(2, 1, 1, 2, &m));
   for (int i = 0; i < 2; ++i) {
-    m->mass[3 * i] = 0.5 * sc.mass;
-    m->damping[3 * i] = 0.5 * sc.damping;
-    m->stiffness[3 * i] = 0.5 * sc.stiffness + K;
-    m->loads[0].cosine[i] = 0.5 * sc.force;
+    m->mass[3 * i] = 0.5 * *sc.structure->mass.v;
+    m->damping[3 * i] = 0.5 * *sc.structure->damping.v;
+    m->stiffness[3 * i] = 0.5 * *sc.structure->stiffness.v + K;
+    m->loads[0].cosine[i] = 0.5 * sc.structure->loads->amplitude;
     m->responses[3 * i] = 1;
   }
   m->stiffness[1] = m->stiffness[2] = -K;
   m->loads[0].harmonic = 1;
-  model_direction(sc.contacts[0].angle_deg, &tangent, &normal);
+  model_direction(sc.structure->contacts[0].given.angle_deg, &tangent, &normal);
   for (int i = 0; i < 2; ++i) {
     m->contacts[0].tangent[i] = 0.5 * tangent;
     m->contacts[0].normal[i] = 0.5 * normal;
   }
-  m->contacts[0].law = sc.contacts[0].law;
+  m->contacts[0].law = sc.structure->contacts[0].given.law;
   check_guesses(m, &sc.hbm);
   model_free(m);
 }

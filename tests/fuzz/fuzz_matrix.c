@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "model/casefile/matrices/matrix_file.h"
+#include "numerics/base/message.h"
 #include "tests/fuzz/fuzz.h"
 
 enum { WORDS = 512, LARGE = 50 /* rows: what is larger is zeros for the most part, and takes long to write */ };

@@ -1,5 +1,6 @@
 /* fuzz_nodes.c - bytes as a file of nodes: each node and direction once, DOFs in range; or refused. */
 #include "model/casefile/structure.h"
+#include "numerics/base/message.h"
 #include "tests/fuzz/fuzz.h"
 
 enum { DOFS = 3 };

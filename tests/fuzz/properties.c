@@ -142,11 +142,6 @@ static void field_is_in_range(const field *f, const void *base)
   }
 }
 
-static bool is_of_oscillator(const field *f)
-{
-  return !strcmp(f->section, "oscillator") || !strcmp(f->section, "forcing");
-}
-
 static void fields_of_contact_are_in_range(const scene_contact *c)
 {
   for (int i = 0; i < field_count(); ++i) {
@@ -171,13 +166,15 @@ static void vector_is_finite(const double *v, size_t n)
 
 void scene_is_in_range(const scene *sc)
 {
-  must(sc->n_contacts >= 0 && sc->n_contacts <= SCENE_MAX_CONTACTS, "%d contacts", sc->n_contacts);
+  must(!scene_is_oscillator(sc) || scene_contact_count(sc) <= SCENE_MAX_CONTACTS, "%d contacts",
+       scene_contact_count(sc));
   for (int i = 0; i < field_count(); ++i) {
     const field *f = field_at(i);
-    if (f->flags & FIELD_STRUCTURE || (sc->structure && is_of_oscillator(f))) continue;
-    if (!(f->flags & FIELD_IN_CONTACT)) field_is_in_range(f, sc);
-    for (int j = 0; f->flags & FIELD_IN_CONTACT && j < sc->n_contacts; ++j)
-      if (field_is_of_law(f, &sc->contacts[j])) field_is_in_range(f, &sc->contacts[j]);
+    if (f->flags & FIELD_STRUCTURE || !field_is_of_case(f, sc)) continue;
+    if (!(f->flags & FIELD_IN_CONTACT)) field_is_in_range(f, field_base(f, sc));
+    for (int j = 0; f->flags & FIELD_IN_CONTACT && scene_is_oscillator(sc) && j < scene_contact_count(sc); ++j)
+      if (field_is_of_law(f, &sc->structure->contacts[j].given))
+        field_is_in_range(f, &sc->structure->contacts[j].given);
   }
   const hbm_settings *h = &sc->hbm;
   bool both_told = h->harmonics != HBM_AUTO && h->samples != HBM_AUTO;

@@ -6,6 +6,7 @@
 
 #include "model/casefile/scene.h"
 #include "numerics/random.h"
+#include "tests/oscillator.h"
 #include "tests/reference_scenes.h"
 #include "tests/reference_table.h"
 
@@ -13,15 +14,10 @@
 static inline scene scene_named(const char *name, int n_harm, bool keep_mean, int n_time)
 {
   const reference_scene *r = reference_scene_named(name);
-  scene sc = {.mass = r->mass,
-              .damping = r->damping,
-              .stiffness = r->stiffness,
-              .force = r->force,
-              .n_contacts = 1,
-              .omega_from = r->omega_from,
-              .omega_to = r->omega_to};
-  sc.contacts[0] =
-      (scene_contact){{.kt = r->kt, .kn = r->kn, .mu = REFERENCE_FRICTION, .gap = r->gap}, REFERENCE_ANGLE};
+  scene sc = scene_oscillator(r->mass, r->damping, r->stiffness, r->force);
+  sc.omega_from = r->omega_from, sc.omega_to = r->omega_to;
+  scene_add_contact(
+      &sc, (scene_contact){{.kt = r->kt, .kn = r->kn, .mu = REFERENCE_FRICTION, .gap = r->gap}, REFERENCE_ANGLE});
   sc.hbm = (hbm_settings){.harmonics = n_harm,
                           .keep_mean = keep_mean,
                           .force = HBM_FORCE_SAMPLED,

@@ -34,9 +34,9 @@ static inline char slow_clamp(const contact *c, double u, double normal, double 
 
 static inline void slow_contact(slow_aft *a, const scene *sc, int j, int n_time)
 {
-  const contact *c = &sc->contacts[j].law;
+  const contact *c = &sc->structure->contacts[j].given.law;
   double co, si, w = 0, second = 0, low = INFINITY, high = -INFINITY, size = 0;
-  scene_direction(&sc->contacts[j], &co, &si);
+  scene_direction(&sc->structure->contacts[j].given, &co, &si);
   bool stuck = true;
   char before = c->kn * (si * a->x[n_time - 1] + c->gap) > 0 ? 's' : '0';
   for (int period = 0; period < SLOW_PERIODS; ++period)
@@ -79,7 +79,7 @@ static inline void slow_force(slow_aft *a, const scene *sc, int n_harm, int n_ti
     }
     a->f[i] = 0;
   }
-  for (int j = 0; j < sc->n_contacts; ++j) slow_contact(a, sc, j, n_time);
+  for (int j = 0; j < sc->structure->n_contacts; ++j) slow_contact(a, sc, j, n_time);
   for (int h = 0; h <= n_harm; ++h) {
     long double re = 0, im = 0;
     for (int i = 0; i < n_time; ++i) {
@@ -108,19 +108,19 @@ static inline double slow_stiffness(const scene_contact *c)
 static inline double slow_tolerance(const scene *sc, int n_harm, int n_time, const double *X)
 {
   double tolerance = 0, size = sum_abs(2 * n_harm + 1, X), stages = log2(n_time);
-  for (int j = 0; j < sc->n_contacts; ++j)
-    tolerance += slow_stiffness(&sc->contacts[j]) * (4 * n_harm + 6 + 2 * stages + 2 * stages) *
-                 (size + fabs(sc->contacts[j].law.gap));
+  for (int j = 0; j < sc->structure->n_contacts; ++j)
+    tolerance += slow_stiffness(&sc->structure->contacts[j].given) * (4 * n_harm + 6 + 2 * stages + 2 * stages) *
+                 (size + fabs(sc->structure->contacts[j].given.law.gap));
   return 2 * DBL_EPSILON * tolerance;
 }
 
 /* n_contacts random contacts for motions of size about 1, at every angle. */
 static inline scene random_contacts(uint64_t *seed, int n_contacts)
 {
-  scene sc = {.mass = 1, .stiffness = 1, .n_contacts = n_contacts};
+  scene sc = scene_oscillator(1, 0, 1, 0);
   for (int j = 0; j < n_contacts; ++j) {
-    sc.contacts[j].law = random_law(seed);
-    sc.contacts[j].angle_deg = random_angle(seed);
+    const contact law = random_law(seed);
+    scene_add_contact(&sc, (scene_contact){.law = law, .angle_deg = random_angle(seed)});
   }
   return sc;
 }

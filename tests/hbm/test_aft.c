@@ -24,8 +24,8 @@ static double kink_error(int h, int n_time, double J1, double J)
 
 static scene one_contact(double kt, double kn, double mu, double gap, double angle_deg)
 {
-  scene sc = {.mass = 1, .stiffness = 1, .n_contacts = 1};
-  sc.contacts[0] = (scene_contact){{.kt = kt, .kn = kn, .mu = mu, .gap = gap}, angle_deg};
+  scene sc = scene_oscillator(1, 0, 1, 0);
+  scene_add_contact(&sc, (scene_contact){{.kt = kt, .kn = kn, .mu = mu, .gap = gap}, angle_deg});
   return sc;
 }
 
@@ -65,7 +65,7 @@ static double case_2_error(int restart, int n_time)
   CHECK_MADE(aft, a, scene_aft(&sc, 1, n_time, &a));
   for (int k = 0; k < 64 * 32; ++k) {
     double X[3] = {-1, 10 + k % 32 / 320.0, 0}, Y[3], F[3], G[3], shift = k / 32 * 2 * PI / n_time / 64;
-    double exact = unilateral(550, X[0] + sc.contacts[0].law.gap / sqrt(0.5), X[1]);
+    double exact = unilateral(550, X[0] + sc.structure->contacts[0].given.law.gap / sqrt(0.5), X[1]);
     shift_motion(1, X, shift, Y);
     assert_int_equal(aft_eval(a, Y, F, NULL, NULL), HC_OK);
     shift_motion(1, F, -shift, G);
@@ -126,8 +126,9 @@ static void agrees_with_the_slow_way(CHECK_STATE)
       double tolerance = slow_tolerance(&sc, H, N, X);
       for (int p = 0; p < 2 * H + 1; ++p)
         CHECK_NEAR(F[p], slowF[p], tolerance, "H=%d N=%d trial %d, row %d", H, N, trial, p);
-      for (int j = 0; j < sc.n_contacts; ++j) {
-        const contact *c = &sc.contacts[j].law; /* w = u - T/kt: stiffness of F over kt; kt = 0 leaves w free */
+      for (int j = 0; j < sc.structure->n_contacts; ++j) {
+        const contact *c =
+            &sc.structure->contacts[j].given.law; /* w = u - T/kt: stiffness of F over kt; kt = 0 leaves w free */
         if (c->kt > 0)
           CHECK_NEAR(got.w[j], slow.w[j], tolerance / c->kt + tolerance, "w, H=%d N=%d trial %d", H, N, trial);
       }
@@ -156,7 +157,7 @@ static void the_slider_closes_in_one_pass(CHECK_STATE)
     slow_force(&slow, &sc, H, N, X, F);
     double size = sum_abs(2 * H + 1, X), w_size = size; /* w = u - mu N/kt */
     for (int j = 0; j < 2; ++j) {
-      const contact *c = &sc.contacts[j].law;
+      const contact *c = &sc.structure->contacts[j].given.law;
       if (c->kt > 0) w_size = fmax(w_size, size + c->mu * c->kn / c->kt * (size + fabs(c->gap)));
     }
     CHECK_LE(slow.moved, 8 * DBL_EPSILON * w_size, "trial %d", trial);
@@ -180,17 +181,17 @@ static void contacts_add(CHECK_STATE)
     memset(jac_sum, 0, sizeof jac_sum);
     int transitions = 0;
     contact_regime strongest = CONTACT_LINEAR;
-    for (int j = 0; j < sc.n_contacts; ++j) {
-      scene alone = sc;
-      alone.n_contacts = 1;
-      alone.contacts[0] = sc.contacts[j];
+    for (int j = 0; j < sc.structure->n_contacts; ++j) {
+      scene alone = scene_own(&sc);
+      scene_keep_contacts(&alone, 1);
+      alone.structure->contacts[0].given = sc.structure->contacts[j].given;
       assert_int_equal(eval_once(&alone, H, N, X, G, one, &single), HC_OK);
       for (int p = 0; p < N_COEF; ++p) sum[p] += G[p];
       for (int p = 0; p < N_COEF * N_COEF; ++p) jac_sum[p] += one[p];
       transitions += single.report.transitions;
       if (single.report.regime > strongest) strongest = single.report.regime;
       assert_true(single.w[0] == all.w[j]);
-      stiffness += slow_stiffness(&sc.contacts[j]);
+      stiffness += slow_stiffness(&sc.structure->contacts[j].given);
     }
     double tolerance = slow_tolerance(&sc, H, N, X);
     for (int p = 0; p < N_COEF; ++p) CHECK_NEAR(F[p], sum[p], tolerance, "trial %d row %d", trial, p);
@@ -208,18 +209,18 @@ static void linear_motions(CHECK_STATE)
   enum { H = 3, N = 16, N_COEF = 2 * H + 1 };
   double X[N_COEF] = {0.1, 0.5, -0.2, 0.1, 0, 0, 0.05}, F[N_COEF], jac[N_COEF * N_COEF];
   aft_result got;
-  scene sc = one_contact(2, 3, 0.3, -5, 45); /* |v| < 1: apart */
   for (int n = 0; n <= 1; ++n) {
-    sc.n_contacts = n;
+    scene sc = one_contact(2, 3, 0.3, -5, 45); /* |v| < 1: apart */
+    scene_keep_contacts(&sc, n);
     assert_int_equal(eval_once(&sc, H, N, X, F, jac, &got), HC_OK);
     for (int p = 0; p < N_COEF; ++p) assert_true(F[p] == 0);
     for (int p = 0; p < N_COEF * N_COEF; ++p) assert_true(jac[p] == 0);
     assert_int_equal(got.report.regime, CONTACT_LINEAR);
     assert_int_equal(got.report.transitions, 0);
   }
-  sc.contacts[0].law.gap = 50; /* |T| <= 2 < 0.3 * 3 * 49: stuck at w = 0 */
+  scene sc = one_contact(2, 3, 0.3, 50, 45); /* |T| <= 2 < 0.3 * 3 * 49: stuck at w = 0 */
   assert_int_equal(eval_once(&sc, H, N, X, F, jac, &got), HC_OK);
-  double k = scene_stuck_stiffness(&sc.contacts[0]), tolerance = slow_tolerance(&sc, H, N, X);
+  double k = scene_stuck_stiffness(&sc.structure->contacts[0].given), tolerance = slow_tolerance(&sc, H, N, X);
   for (int p = 0; p < N_COEF; ++p) {
     CHECK_NEAR(F[p], k * X[p], tolerance, "row %d", p);
     for (int q = 0; q < N_COEF; ++q)

@@ -38,7 +38,7 @@ static void jacobian_equals_central_differences(CHECK_STATE)
       CHECK_FILLED(contact_report, report, aft_eval(a, X, F, jac, &report));
       uint64_t pattern = pattern_at(&sc, H, N, X, unused);
       double noise = slow_tolerance(&sc, H, N, X), stiffness = 0;
-      for (int j = 0; j < sc.n_contacts; ++j) stiffness += slow_stiffness(&sc.contacts[j]);
+      for (int j = 0; j < sc.structure->n_contacts; ++j) stiffness += slow_stiffness(&sc.structure->contacts[j].given);
       for (int direction = 0; direction < 4; ++direction) {
         random_motion(&seed, H, 1, direction % 2, d);
         double size = sum_abs(n, d);
@@ -91,7 +91,7 @@ static void whole_steps_only_rotate(CHECK_STATE)
       double shift = 2 * PI * steps / N, stiffness = 0;
       scene sc = random_contacts(&seed, 1 + trial % 3);
       sc.hbm.restart = trial / 2 % 2;
-      for (int j = 0; j < sc.n_contacts; ++j) stiffness += slow_stiffness(&sc.contacts[j]);
+      for (int j = 0; j < sc.structure->n_contacts; ++j) stiffness += slow_stiffness(&sc.structure->contacts[j].given);
       random_motion(&seed, H, 1, 1, X);
       shift_motion(H, X, shift, Y);
       CHECK_MADE(aft, a, scene_aft(&sc, H, N, &a));

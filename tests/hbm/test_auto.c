@@ -23,8 +23,9 @@ static solved_curve traced(const scene *sc)
   hc_status st = hbm_trace(r.s, sc->omega_from, sc->omega_to, NULL, &r.c);
   if (st != HC_OK)
     fail_msg("K=%g kn=%g gap=%g H=%d N=%d accuracy=%g: %s after %d points, at omega %.12g with H=%d N=%d",
-             sc->stiffness, sc->contacts[0].law.kn, sc->contacts[0].law.gap, sc->hbm.harmonics, sc->hbm.samples,
-             sc->hbm.accuracy, hc_status_text(st), r.c.n, r.c.n ? r.c.points[r.c.n - 1].omega : 0, hbm_n_harmonics(r.s),
+             *sc->structure->stiffness.v, sc->structure->contacts[0].given.law.kn,
+             sc->structure->contacts[0].given.law.gap, sc->hbm.harmonics, sc->hbm.samples, sc->hbm.accuracy,
+             hc_status_text(st), r.c.n, r.c.n ? r.c.points[r.c.n - 1].omega : 0, hbm_n_harmonics(r.s),
              hbm_n_samples(r.s));
   return r;
 }
@@ -69,7 +70,7 @@ enum { FREQUENCIES = 12 };
  * 708.747: there, and a little to either side. */
 static void frequencies(const scene *sc, double omega[FREQUENCIES])
 {
-  bool narrow = sc->stiffness == 8e5;
+  bool narrow = *sc->structure->stiffness.v == 8e5;
   double from = narrow ? 706.5 : sc->omega_from, to = narrow ? 709 : sc->omega_to;
   for (int i = 0; i < FREQUENCIES; ++i) omega[i] = from + (to - from) * (i + 0.37) / FREQUENCIES;
 }
@@ -232,7 +233,7 @@ static void shortcuts_change_no_solution(CHECK_STATE)
 static void every_switch_can_be_turned_off(CHECK_STATE)
 {
   scene sc = accurate_scene("a10", 5);
-  sc.force = 1;
+  sc.structure->loads->amplitude = 1;
   sc.hbm.force = HBM_FORCE_SAMPLED;
   sc.hbm.samples = 256;
   sc.hbm.skip_linear = false;

@@ -31,9 +31,10 @@ static void check_linear_sweep(const scene *sc, double k, contact_regime regime,
   assert_int_equal(hbm_curve_peak(t.s, c, &peak), HC_OK);
   assert_int_equal(peak.n, 1);
   assert_int_equal(hbm_measure(t.s, peak.X, &m), HC_OK);
-  double damping = sc->damping / sc->mass,
-         top = sc->force / (sc->mass * damping * sqrt(k / sc->mass - damping * damping / 4));
-  double omega_top = sqrt(k / sc->mass - damping * damping / 2);
+  double damping = *sc->structure->damping.v / *sc->structure->mass.v,
+         top = sc->structure->loads->amplitude /
+               (*sc->structure->mass.v * damping * sqrt(k / *sc->structure->mass.v - damping * damping / 4));
+  double omega_top = sqrt(k / *sc->structure->mass.v - damping * damping / 2);
   /* a maximum: an omega off by e costs x''/x e^2/2 = (2/damping)^2 e^2/2, and no search can tell e where
    * that is below the rounding r of the amplitude: e <= (damping/2) sqrt(2 r), r the linear tolerance; the amplitude
    * is as good as that rounding, twice for the comparison */
@@ -57,16 +58,16 @@ static void linear_sweeps(CHECK_STATE)
         scene stuck = scene_named("a10", orders[i], keep_mean, 64),
               apart = scene_named("b10", orders[i], keep_mean, 64);
         double from = down ? 20 : 3, to = 23 - from;
-        stuck.force = apart.force = 1;
-        scene bare = apart;
-        bare.n_contacts = 0;
+        stuck.structure->loads->amplitude = apart.structure->loads->amplitude = 1;
+        scene bare = scene_own(&apart);
+        scene_keep_contacts(&bare, 0);
         check_linear_sweep(&bare, 40, CONTACT_LINEAR, from, to, "no contact");
         check_linear_sweep(&apart, 40, CONTACT_LINEAR, from, to, "apart");
         check_linear_sweep(&stuck, 190, CONTACT_STUCK, from, to, "stuck");
         CHECK_LE(linear_tolerance(&stuck, 190, 13.78, 1) / 0.18, 1e-12,
                  "what the tolerance comes to, where it is largest");
         scene sharp = scene_named("r2", orders[i], keep_mean, 64);
-        sharp.force = 1; /* 3.5e-3 at resonance, far from 0.2 */
+        sharp.structure->loads->amplitude = 1; /* 3.5e-3 at resonance, far from 0.2 */
         check_linear_sweep(&sharp, 8e5, CONTACT_LINEAR, down ? 850 : 600, down ? 600 : 850, "apart, sharp");
       }
 }

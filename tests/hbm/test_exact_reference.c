@@ -115,7 +115,7 @@ static void stiff_contacts_from_both_ends(CHECK_STATE)
     for (int o = 0; o < 3; ++o)
       for (int keep_mean = 0; keep_mean <= 1; ++keep_mean) {
         scene sc = exact_scene("c2", orders[o], keep_mean);
-        sc.contacts[0].law.kn = kn;
+        sc.structure->contacts[0].given.law.kn = kn;
         char what[40];
         snprintf(what, sizeof what, "kn=%g", kn);
         double top = keep_mean ? 20 : 150;

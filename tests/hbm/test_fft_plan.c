@@ -4,6 +4,7 @@
 #include "compare/study/scene_solvers.h"
 #include "hbm/contact/fft_plan.h"
 #include "tests/check.h"
+#include "tests/oscillator.h"
 #include "tests/wrap.h"
 
 static const pthread_mutex_t *held, *planner; /* the lock held now, or NULL; the lock held at the first call */
@@ -49,7 +50,7 @@ WRAP(void, fftw_destroy_plan, (fftw_plan plan))
 /* Two plans made and freed by a handle of aft.h, two by hand. */
 static void one_lock_guards_the_planner(CHECK_STATE)
 {
-  static const scene no_contact = {.n_contacts = 0};
+  const scene no_contact = scene_oscillator(1, 0, 1, 0);
   fftw_complex spectrum[3];
   double samples[4];
   calls = unguarded = 0;

@@ -47,9 +47,8 @@ static scene scene_of(const refused_scene *r)
 {
   scene sc = scene_named("b10", r->harmonics, r->keep_mean, 64);
   sc.hbm.force = HBM_FORCE_EXACT;
-  sc.mass = r->mass, sc.damping = r->damping, sc.stiffness = r->stiffness, sc.force = r->force;
-  sc.n_contacts = r->n_contacts;
-  for (int j = 0; j < r->n_contacts; ++j) sc.contacts[j] = contacts[r->first + j];
+  sc.structure = scene_oscillator(r->mass, r->damping, r->stiffness, r->force).structure;
+  for (int j = 0; j < r->n_contacts; ++j) scene_add_contact(&sc, contacts[r->first + j]);
   return sc;
 }
 

@@ -87,7 +87,7 @@ static void sampled_corners_stop_it(CHECK_STATE)
   const double steps[] = {0.05, 0.02, 0.01, 0.005};
   for (int i = 0; i < 4; ++i) {
     scene sc = fixed("c2", 1, false, 128, steps[i], 20);
-    sc.contacts[0].law.kn = 3e3;
+    sc.structure->contacts[0].given.law.kn = 3e3;
     sc.hbm.restart = HBM_RESTART_SAMPLE;
     traced t = trace(&sc, 3, 40, "kn 3e3");
     assert_int_equal(t.status, HC_NOT_CONVERGED);
@@ -95,7 +95,7 @@ static void sampled_corners_stop_it(CHECK_STATE)
     free_traced(&t);
   }
   scene sc = fixed("c2", 1, false, 128, 0.02, 20);
-  sc.contacts[0].law.kn = 3e3;
+  sc.structure->contacts[0].given.law.kn = 3e3;
   sc.hbm.restart = HBM_RESTART_SAMPLE;
   sc.hbm.continuation = HBM_CONTINUATION_AUTO;
   hbm_curve whole = {0};

@@ -128,7 +128,7 @@ static void case_b_needs_arclength_and_case_a_does_not(CHECK_STATE)
   for (int force = 1; force <= 10; ++force)
     for (int natural = 0; natural <= 1; ++natural) {
       scene a = paper_scene("a10", 1024, HBM_RESTART_SAMPLE), b = paper_scene("b10", 1024, HBM_RESTART_SAMPLE);
-      a.force = b.force = force;
+      a.structure->loads->amplitude = b.structure->loads->amplitude = force;
       a.hbm.continuation = b.hbm.continuation = natural ? HBM_CONTINUATION_NATURAL : HBM_CONTINUATION_AUTO;
       outcome oa = trace(&a, 3, 20), ob = trace(&b, 3, 20);
       if (oa.status != HC_OK || oa.turning_points)
@@ -153,7 +153,7 @@ static void stiffer_contacts_need_more_samples(CHECK_STATE)
   } runs[] = {{3e3, 1 << 7, false}, {5e3, 1 << 8, false}, {5e3, 1 << 12, true}};
   for (int i = 0; i < 3; ++i) {
     scene sc = paper_scene("c2", runs[i].n_time, HBM_RESTART_SAMPLE);
-    sc.contacts[0].law.kn = runs[i].kn;
+    sc.structure->contacts[0].given.law.kn = runs[i].kn;
     char what[40];
     snprintf(what, sizeof what, "kn = %g", runs[i].kn);
     outcome o = trace_and_print(&sc, what);

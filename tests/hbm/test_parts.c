@@ -52,7 +52,10 @@ static void the_motion_in_which_nothing_touches_is_a_part_of_its_own(CHECK_STATE
   assert_int_equal(up.curve.n_parts, 2);
   assert_int_equal(up.curve.parts[1].start, HBM_PART_FROM_LAST);
   for (double omega = 7.6; omega < 8.9; omega += 0.4) {
-    double a[ROOM], b[ROOM], linear = sc.force / hypot(sc.stiffness - sc.mass * omega * omega, sc.damping * omega);
+    double a[ROOM], b[ROOM],
+        linear =
+            sc.structure->loads->amplitude /
+            hypot(*sc.structure->stiffness.v - *sc.structure->mass.v * omega * omega, *sc.structure->damping.v * omega);
     const int n = amplitudes_at(&up, omega, a, ROOM), m = amplitudes_at(&down, omega, b, ROOM);
     assert_int_equal(n, 3);
     assert_int_equal(m, 3);
@@ -66,10 +69,10 @@ static void the_motion_in_which_nothing_touches_is_a_part_of_its_own(CHECK_STATE
 /* A mass between stops at +0.5 and -(0.5 + off). */
 static scene between_stops(double off)
 {
-  scene sc = {
-      .mass = 1, .damping = 0.1, .stiffness = 1, .force = 1, .n_contacts = 2, .omega_from = 0.4, .omega_to = 1.2};
-  sc.contacts[0] = (scene_contact){{.kn = 5, .gap = -0.5}, 90};
-  sc.contacts[1] = (scene_contact){{.kn = 5, .gap = -0.5 - off}, -90};
+  scene sc = scene_oscillator(1, 0.1, 1, 1);
+  sc.omega_from = 0.4, sc.omega_to = 1.2;
+  scene_add_contact(&sc, (scene_contact){{.kn = 5, .gap = -0.5}, 90});
+  scene_add_contact(&sc, (scene_contact){{.kn = 5, .gap = -0.5 - off}, -90});
   sc.hbm = (hbm_settings){.harmonics = 7, .keep_mean = true, .tolerance = 1e-10};
   return sc;
 }
@@ -146,8 +149,8 @@ static void symmetric_models_are_told(CHECK_STATE)
 {
   for (int kind = 0; kind < 4; ++kind) {
     scene sc = between_stops(kind == 1 ? 1e-6 : 0);
-    if (kind == 2) sc.n_contacts = 1;
-    if (kind == 3) sc.contacts[0] = (scene_contact){{.kt = 1, .mu = 0.3, .load = 1}, 0}, sc.n_contacts = 1;
+    if (kind >= 2) scene_keep_contacts(&sc, 1);
+    if (kind == 3) sc.structure->contacts[0].given = (scene_contact){{.kt = 1, .mu = 0.3, .load = 1}, 0};
     hbm_solver *s;
     assert_int_equal(scene_hbm_solver(&sc, &s), HC_OK);
     assert_int_equal(s->symmetric, kind == 0 || kind == 3);

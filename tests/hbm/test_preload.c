@@ -12,8 +12,8 @@ static const double X[N_COEF] = {1e-11, 1e-10, -2e-10, 3e-11, 1e-11, 0, -5e-12};
 static scene preloaded(void)
 {
   scene sc = scene_named("a10", H, true, 64);
-  sc.contacts[0].law = (contact){.kt = 3e6, .kn = 1e8, .mu = 0.5, .gap = 8};
-  sc.contacts[0].angle_deg = 30;
+  sc.structure->contacts[0].given.law = (contact){.kt = 3e6, .kn = 1e8, .mu = 0.5, .gap = 8};
+  sc.structure->contacts[0].given.angle_deg = 30;
   return sc;
 }
 
@@ -21,7 +21,7 @@ static scene preloaded(void)
 static void check(const double *F, double terms, const char *which)
 {
   const scene sc = preloaded();
-  const double k = scene_stuck_stiffness(&sc.contacts[0]);
+  const double k = scene_stuck_stiffness(&sc.structure->contacts[0].given);
   for (int i = 0; i < N_COEF; ++i) CHECK_NEAR(F[i], k * X[i], terms * DBL_EPSILON * k * 2e-10, "%s, row %d", which, i);
 }
 

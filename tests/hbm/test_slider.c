@@ -87,8 +87,8 @@ static void equals_two_whole_periods(CHECK_STATE)
     random_motion(&seed, H, 1, 1 + trial % 3, X);
     for (int i = 0; i < n; ++i)
       full.x[i] = series_at(H, X, cos(2 * PI * i / n), sin(2 * PI * i / n)).x * (trial % 5 ? 1 : 0.05);
-    for (int j = 0; j < sc.n_contacts; ++j) {
-      moving_contact c = scene_moving_contact(&sc.contacts[j]);
+    for (int j = 0; j < sc.structure->n_contacts; ++j) {
+      moving_contact c = scene_moving_contact(&sc.structure->contacts[j].given);
       /* Where a contact slips at every sample its reversal must not stick: hardly any friction, a stiff spring. */
       if (trial % 7 == 0) {
         c.law.mu = 1e-6;

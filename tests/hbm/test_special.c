@@ -102,7 +102,7 @@ static void check_no_twins(const found *f, const char *what)
 static void what_begins_at_once_is_one_change(CHECK_STATE)
 {
   scene sc = scene_named("c2", 5, true, 1024);
-  sc.contacts[0].law.gap = 1;
+  sc.structure->contacts[0].given.law.gap = 1;
   sc.hbm.skip_linear = true;
   found f = find_in(sc, 30);
   check_no_twins(&f, "preloaded");
@@ -113,14 +113,14 @@ static void what_begins_at_once_is_one_change(CHECK_STATE)
   assert_int_equal(jumps, 1);
   free_found(&f);
   sc = scene_named("c2", 5, true, 1024);
-  sc.contacts[0].law.kn = 200;
+  sc.structure->contacts[0].given.law.kn = 200;
   sc.hbm.skip_linear = true;
   f = find_in(sc, 40);
   check_no_twins(&f, "kn = 200");
   free_found(&f);
   sc = scene_named("c2", 5, true, 1024);
-  sc.contacts[0].law.kn = 500, sc.contacts[0].law.kt = 50;
-  sc.contacts[1] = sc.contacts[0], sc.n_contacts = 2;
+  sc.structure->contacts[0].given.law.kn = 500, sc.structure->contacts[0].given.law.kt = 50;
+  scene_add_contact(&sc, sc.structure->contacts[0].given);
   found one = find("c2", 5);
   f = find_in(sc, 20);
   check_no_twins(&f, "two like contacts");

@@ -20,8 +20,8 @@ static void check_linear(const scene *sc, double k, double omega, contact_regime
   CHECK_FILLED(hbm_stability, st, hbm_stability_at(s, omega, X, &st));
   hbm_solver_free(s);
   assert_int_equal(measures.contact.regime, regime);
-  double a = 0.5 * sc->damping / sc->mass, T = 2 * PI / omega;
-  double complex d = csqrt(a * a - k / sc->mass), l1 = cexp((-a + d) * T), l2 = cexp((-a - d) * T);
+  double a = 0.5 * *sc->structure->damping.v / *sc->structure->mass.v, T = 2 * PI / omega;
+  double complex d = csqrt(a * a - k / *sc->structure->mass.v), l1 = cexp((-a + d) * T), l2 = cexp((-a - d) * T);
   double tol = DBL_EPSILON * (16 + 4 * (a + cabs(d)) * T) * (1 + 1 / cabs(l1 - l2));
   CHECK_NEAR(st.multiplier, fmax(cabs(l1), cabs(l2)), tol, "%s omega=%g", what, omega);
   CHECK_NEAR(st.re, creal(l1), tol, "%s omega=%g", what, omega);
@@ -38,18 +38,18 @@ static void a_linear_oscillator_has_the_exponentials_of_its_eigenvalues(CHECK_ST
   for (size_t i = 0; i < sizeof damping / sizeof *damping; ++i)
     for (size_t q = 0; q < sizeof omegas / sizeof *omegas; ++q) {
       scene none = exact_scene("b10", 5, true), apart, stuck = exact_scene("a10", 5, true);
-      none.damping = stuck.damping = damping[i];
-      stuck.force = none.force = 1e-3; /* moves far less than gap 0.5, or the traction mu N0 = 30 */
-      apart = none;
-      none.n_contacts = 0;
+      *none.structure->damping.v = *stuck.structure->damping.v = damping[i];
+      stuck.structure->loads->amplitude = none.structure->loads->amplitude =
+          1e-3; /* moves far less than gap 0.5, or the traction mu N0 = 30 */
+      apart = scene_own(&none);
+      scene_keep_contacts(&none, 0);
       check_linear(&none, 40, omegas[q], CONTACT_LINEAR, "no contact");
       check_linear(&apart, 40, omegas[q], CONTACT_LINEAR, "apart");
       check_linear(&stuck, 40 + 50 + 100, omegas[q], CONTACT_STUCK, "stuck"); /* kt cos^2 + kn sin^2 at 45 degrees */
-      scene both = stuck;
-      both.n_contacts = 2;
-      both.contacts[1] = (scene_contact){{70, 30, 0.2, -2}, 30};
+      scene both = scene_own(&stuck);
+      scene_add_contact(&both, (scene_contact){{70, 30, 0.2, -2}, 30});
       check_linear(&both, 190, omegas[q], CONTACT_STUCK, "one stuck, one apart");
-      both.contacts[1].law.gap = 1;
+      both.structure->contacts[1].given.law.gap = 1;
       check_linear(&both, 190 + 70 * 0.75 + 30 * 0.25, omegas[q], CONTACT_STUCK, "two stuck");
     }
 }
@@ -72,7 +72,7 @@ static void without_slip_the_determinant_is_that_of_the_damping(CHECK_STATE)
     assert_int_equal(hbm_trace(s, 3, 20, NULL, &c), HC_OK);
     int unstable = 0, stable = 0, slider_across_0 = 0;
     for (int k = 0; k < c.n; ++k) {
-      double omega = c.points[k].omega, det = exp(-sc.damping * 2 * PI / omega / sc.mass);
+      double omega = c.points[k].omega, det = exp(-*sc.structure->damping.v * 2 * PI / omega / *sc.structure->mass.v);
       CHECK_FILLED(hbm_stability, st, hbm_stability_at(s, omega, c.X + (size_t)k * c.n_coef, &st));
       CHECK_NEAR(moving_determinant(&st), det, 1e-12 * (1 + st.multiplier * st.multiplier), "H=%d omega=%.17g",
                  harmonics[q], omega);
@@ -106,7 +106,8 @@ static void check_slipping(const scene *sc, double omega, const char *what)
   CHECK_FILLED(hbm_point, point, hbm_first_solution(s, omega, NULL, X, &point));
   check_against_map(what, s, m, omega, X);
   CHECK_FILLED(hbm_stability, st, hbm_stability_at(s, omega, X, &st));
-  CHECK_LE(moving_determinant(&st), (1 - 1e-3) * exp(-sc->damping * TWO_PI / omega / sc->mass), "%s at %g", what,
+  CHECK_LE(moving_determinant(&st),
+           (1 - 1e-3) * exp(-*sc->structure->damping.v * TWO_PI / omega / *sc->structure->mass.v), "%s at %g", what,
            omega);
   hbm_solver_free(s);
   model_free(m);
@@ -129,8 +130,7 @@ static void two_contacts_against_the_period_map(CHECK_STATE)
   static const double omegas[] = {5.5, 7, 8};
   for (int i = 0; i < 3; ++i) {
     scene sc = exact_scene("b10", 30, true);
-    sc.n_contacts = 2;
-    sc.contacts[1] = (scene_contact){{60, 80, 0.2, -0.2}, 30};
+    scene_add_contact(&sc, (scene_contact){{60, 80, 0.2, -0.2}, 30});
     check_slipping(&sc, omegas[i], "two contacts");
   }
 }
@@ -141,19 +141,19 @@ static void two_contacts_against_the_period_map(CHECK_STATE)
 static void a_slider_shaken_down_is_held(CHECK_STATE)
 {
   scene sc = exact_scene("a10", 4, true);
-  sc.mass = 0.004673179462143663, sc.damping = 3.034467329816304, sc.stiffness = 5318.444481348431,
-  sc.force = 583.943258710234;
-  sc.contacts[0] = (scene_contact){
+  *sc.structure->mass.v = 0.004673179462143663, *sc.structure->damping.v = 3.034467329816304,
+  *sc.structure->stiffness.v = 5318.444481348431, sc.structure->loads->amplitude = 583.943258710234;
+  sc.structure->contacts[0].given = (scene_contact){
       {.kt = 15.850124418365803, .kn = 1.2291759286480795, .mu = 1.9994961307629158, .gap = 0.732771594469483},
       55.94139530323445};
-  const double omega = 881.68431426493737, rate = 0.5 * sc.damping / sc.mass,
-               k = sc.stiffness + scene_stuck_stiffness(&sc.contacts[0]);
+  const double omega = 881.68431426493737, rate = 0.5 * *sc.structure->damping.v / *sc.structure->mass.v,
+               k = *sc.structure->stiffness.v + scene_stuck_stiffness(&sc.structure->contacts[0].given);
   double X[9];
   CHECK_MADE(hbm_solver, s, scene_hbm_solver(&sc, &s));
   CHECK_FILLED(hbm_point, point, hbm_first_solution(s, omega, NULL, X, &point));
   CHECK_LE(1e-6, fabs(X[0]), "the slider has slipped: it rests where the mean is not 0");
   CHECK_FILLED(hbm_stability, st, hbm_stability_at(s, omega, X, &st));
-  CHECK_LE(rate * rate, k / sc.mass, "under-damped, so that both multipliers have the modulus");
+  CHECK_LE(rate * rate, k / *sc.structure->mass.v, "under-damped, so that both multipliers have the modulus");
   CHECK_NEAR(st.multiplier, exp(-rate * 2 * PI / omega), 1e-12, "stuck oscillator");
   assert_int_equal(hbm_stability_verdict(&st), 1);
   hbm_solver_free(s);

@@ -11,13 +11,13 @@ static int sign_of_determinant(const scene *sc, aft *a, const double *X, double 
   int H = sc->hbm.harmonics, n = 2 * H + 1, sign = 1;
   assert_true(n <= MAX);
   assert_int_equal(aft_eval(a, X, F, J, NULL), HC_OK);
-  J[0] += sc->stiffness;
+  J[0] += *sc->structure->stiffness.v;
   for (int h = 1; h <= H; ++h) {
     int i = 2 * h - 1;
-    J[i + n * i] += sc->stiffness - sc->mass * h * h * omega * omega;
-    J[i + 1 + n * (i + 1)] += sc->stiffness - sc->mass * h * h * omega * omega;
-    J[i + n * (i + 1)] += sc->damping * h * omega;
-    J[i + 1 + n * i] -= sc->damping * h * omega;
+    J[i + n * i] += *sc->structure->stiffness.v - *sc->structure->mass.v * h * h * omega * omega;
+    J[i + 1 + n * (i + 1)] += *sc->structure->stiffness.v - *sc->structure->mass.v * h * h * omega * omega;
+    J[i + n * (i + 1)] += *sc->structure->damping.v * h * omega;
+    J[i + 1 + n * i] -= *sc->structure->damping.v * h * omega;
   }
   for (int k = sc->hbm.keep_mean ? 0 : 1; k < n; ++k) {
     int top = k;
@@ -133,7 +133,7 @@ static void a_branch_that_turns_back(CHECK_STATE)
 static void a_branch_that_leaves(CHECK_STATE)
 {
   scene sc = scene_named("c2", 1, false, 64);
-  sc.contacts[0].law.kn = 1e7;
+  sc.structure->contacts[0].given.law.kn = 1e7;
   sc.hbm.force = HBM_FORCE_EXACT;
   traced t = trace(&sc, 8.5, 3, "nearly rigid, down from 8.5");
   const hbm_curve *c = &t.curve;
@@ -179,10 +179,9 @@ static void always_an_end_with_a_reason(CHECK_STATE)
                           : trial % 5 == 3 ? HBM_CONTINUATION_ARCLENGTH
                                            : HBM_CONTINUATION_AUTO;
     if (trial % 6 == 5) {
-      sc.n_contacts = 3;
-      sc.contacts[2] = sc.contacts[1] = sc.contacts[0];
-      sc.contacts[1].angle_deg = 20;
-      sc.contacts[2].law.gap *= -0.5;
+      for (int j = 1; j < 3; ++j) scene_add_contact(&sc, sc.structure->contacts[0].given);
+      sc.structure->contacts[1].given.angle_deg = 20;
+      sc.structure->contacts[2].given.law.gap *= -0.5;
     }
     double low = 0.05 + 2 * fabs(random_signed(&seed)), high = low + 25 * fabs(random_signed(&seed));
     tick_counter watch = {.stop = 4000}; /* a curve with a false turn at every sample may be longer: stopped here */

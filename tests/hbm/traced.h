@@ -114,15 +114,17 @@ static inline int check_rows(int n, const reference_row *rows, const traced *t, 
  * larger than z off resonance, and least where h w meets the resonance: C h w. */
 static inline double linear_tolerance(const scene *sc, double k, double omega, int h)
 {
-  double z = hypot(k - sc->mass * h * h * omega * omega, sc->damping * h * omega),
-         x = sc->force / hypot(k - sc->mass * omega * omega, sc->damping * omega);
+  double z = hypot(k - *sc->structure->mass.v * h * h * omega * omega, *sc->structure->damping.v * h * omega),
+         x = sc->structure->loads->amplitude /
+             hypot(k - *sc->structure->mass.v * omega * omega, *sc->structure->damping.v * omega);
   return (8 + 2 * log2(sc->hbm.samples)) * DBL_EPSILON *
-         (k + sc->mass * h * h * omega * omega + sc->damping * h * omega) / z * x;
+         (k + *sc->structure->mass.v * h * h * omega * omega + *sc->structure->damping.v * h * omega) / z * x;
 }
 
 static inline void check_linear_point(const scene *sc, double k, const double *X, double omega, const char *what)
 {
-  double complex x = sc->force / (k - sc->mass * omega * omega + I * sc->damping * omega);
+  double complex x = sc->structure->loads->amplitude /
+                     (k - *sc->structure->mass.v * omega * omega + I * *sc->structure->damping.v * omega);
   CHECK_LE(hypot(X[1] - creal(x), X[2] + cimag(x)), linear_tolerance(sc, k, omega, 1), "%s at %.17g", what, omega);
   CHECK_LE(fabs(X[0]), linear_tolerance(sc, k, omega, 0), "%s at %.17g", what, omega);
   for (int h = 2; h <= sc->hbm.harmonics; ++h)

@@ -4,6 +4,7 @@
 #include "compare/stress/scenes.h"
 #include "model/casefile/case_file.h"
 #include "tests/check.h"
+#include "tests/oscillator.h"
 
 enum { MANY = 4000 };
 
@@ -50,19 +51,20 @@ static void the_whole_of_every_range_is_drawn(CHECK_STATE)
       facing = 0;
   for (long i = 0; i < MANY; ++i) {
     CHECK_FILLED(scene, sc, stress_scenes_at(s, i, &sc));
-    ++contacts[sc.n_contacts];
+    ++contacts[sc.structure->n_contacts];
     ++mean[sc.hbm.keep_mean];
-    double ratio = sc.damping / (2 * sqrt(sc.mass * sc.stiffness));
-    undamped += sc.damping == 0;
-    const bool cubic = sc.contacts[sc.n_contacts - 1].kind == CONTACT_POLYNOMIAL; /* in the place of the stiffness */
+    double ratio = *sc.structure->damping.v / (2 * sqrt(*sc.structure->mass.v * *sc.structure->stiffness.v));
+    undamped += *sc.structure->damping.v == 0;
+    const bool cubic = sc.structure->contacts[sc.structure->n_contacts - 1].given.kind ==
+                       CONTACT_POLYNOMIAL; /* in the place of the stiffness */
     cubics += cubic;
-    take(&r[MASS], sc.mass), take(&r[FORCE], sc.force);
-    if (!cubic) take(&r[STIFFNESS], sc.stiffness), take(&r[RATIO], ratio * (1 - 4 * DBL_EPSILON));
+    take(&r[MASS], *sc.structure->mass.v), take(&r[FORCE], sc.structure->loads->amplitude);
+    if (!cubic) take(&r[STIFFNESS], *sc.structure->stiffness.v), take(&r[RATIO], ratio * (1 - 4 * DBL_EPSILON));
     take(&r[HARMONICS], sc.hbm.harmonics), take(&r[SAMPLES], sc.hbm.samples);
-    const bool faces = sc.contacts[0].kind == SCENE_LAW_TABLE;
+    const bool faces = sc.structure->contacts[0].given.kind == SCENE_LAW_TABLE;
     facing += faces;
-    for (int j = 0; j < sc.n_contacts - cubic && !faces; ++j) {
-      const scene_contact *c = &sc.contacts[j];
+    for (int j = 0; j < sc.structure->n_contacts - cubic && !faces; ++j) {
+      const scene_contact *c = &sc.structure->contacts[j].given;
       take(&r[KN], c->law.kn), take(&r[KT], c->law.kt), take(&r[MU], c->law.mu), take(&r[ANGLE], c->angle_deg),
           take(&r[GAP], c->law.gap);
       zero_mu += c->law.mu == 0, zero_gap += c->law.gap == 0, angle_0 += c->angle_deg == 0,
@@ -89,9 +91,10 @@ static void a_scene_comes_again_from_seed_and_index(CHECK_STATE)
   for (long i = 0; i < 50; ++i) assert_int_equal(stress_scenes_at(a, i, &first), HC_OK);
   assert_int_equal(stress_scenes_at(b, 80, &again), HC_OK);
   assert_int_equal(stress_scenes_at(b, 49, &again), HC_OK);
-  assert_memory_equal(&first, &again, sizeof first);
+  assert_true(scene_equals(&first, &again));
   assert_int_equal(stress_scenes_at(c, 49, &other), HC_OK);
-  assert_true(other.mass != first.mass && other.contacts[0].law.kn != first.contacts[0].law.kn);
+  assert_true(*other.structure->mass.v != *first.structure->mass.v &&
+              other.structure->contacts[0].given.law.kn != first.structure->contacts[0].given.law.kn);
   assert_int_equal(stress_scenes_at(a, -1, &first), HC_BAD_INPUT);
   stress_scenes_free(a), stress_scenes_free(b), stress_scenes_free(c);
 }
@@ -111,7 +114,7 @@ static void every_scene_is_a_case_file(CHECK_STATE)
     fclose(to);
     if (case_parse("scene", text, strlen(text), 0, NULL, &back, &err) != HC_OK)
       fail_msg("scene %ld: %s", i, err.message);
-    assert_memory_equal(&sc, &back, sizeof sc);
+    assert_true(scene_equals(&sc, &back));
   }
   stress_scenes_free(s);
 }

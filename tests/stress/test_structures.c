@@ -14,6 +14,7 @@
 #include "numerics/random.h"
 #include "proof/prove/certificate.h"
 #include "tests/check.h"
+#include "tests/oscillator.h"
 #include "tests/wrap.h"
 
 typedef enum spoil {
@@ -491,9 +492,8 @@ static scene case_2(void)
 {
   scene sc;
   field_defaults(&sc);
-  sc.mass = 1, sc.damping = 0.4, sc.stiffness = 40, sc.force = 100;
-  sc.n_contacts = 1;
-  sc.contacts[0] = (scene_contact){{100, 1000, 0.3, -5}, 45};
+  sc.structure = scene_oscillator(1, 0.4, 40, 100).structure;
+  scene_add_contact(&sc, (scene_contact){{100, 1000, 0.3, -5}, 45});
   sc.omega_from = 6, sc.omega_to = 7;
   sc.compare.omega = (number_list){1, {6.5}};
   sc.hbm.harmonics = 20;
@@ -503,7 +503,7 @@ static scene case_2(void)
 static void good_oscillators_are_no_findings(CHECK_STATE)
 {
   scene slips = case_2();
-  slips.contacts[0].law.gap = 0.05;
+  slips.structure->contacts[0].given.law.gap = 0.05;
   for (int i = 0; i < 2; ++i) {
     const scene sc = i ? slips : case_2();
     const stress_result r = spoiled_stress(&sc, NOTHING, ALL);
@@ -578,16 +578,16 @@ static void another_answer_of_a_scene_written_another_way_is_found(CHECK_STATE)
 static void an_oscillator_is_made_small(CHECK_STATE)
 {
   scene sc = case_2();
-  sc.n_contacts = 2;
-  sc.contacts[1] = (scene_contact){{1.2345, 2.3456, 0.34567, -4.5678}, 12.345};
-  sc.mass = 1.0123456;
+  scene_add_contact(&sc, (scene_contact){{1.2345, 2.3456, 0.34567, -4.5678}, 12.345});
+  *sc.structure->mass.v = 1.0123456;
   spoiled = ORBIT_MULTIPLIER;
   assert_int_equal(stress_shrink(&sc, STRESS_MULTIPLIER, 20, NULL), HC_OK);
   spoiled = NOTHING;
-  assert_int_equal(sc.n_contacts, 1);
-  assert_true(sc.hbm.harmonics < 20 && sc.mass == 1);
+  assert_int_equal(sc.structure->n_contacts, 1);
+  assert_true(sc.hbm.harmonics < 20 && *sc.structure->mass.v == 1);
   const stress_result r = spoiled_stress(&sc, ORBIT_MULTIPLIER, STRESS_MULTIPLIER);
   assert_int_equal(r.check[STRESS_MULTIPLIER].outcome, STRESS_FINDING);
+  case_clear(&sc);
 }
 
 /* ---- findings of seeds that nobody had used ------------------------------------------------------------------ */

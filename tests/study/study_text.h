@@ -3,6 +3,7 @@
 
 #include "compare/study/study.h"
 #include "tests/folder.h"
+#include "tests/oscillator.h"
 
 /* A linear scene: cheap, and enough wherever the scene is beside the point. */
 #define CASE                                                                                                           \

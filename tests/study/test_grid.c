@@ -5,7 +5,7 @@ static scene scene_of(const study *s, long id)
 {
   case_error err = {{0}};
   CHECK_FILLED(scene, sc, study_scene(s, id, &sc, &err));
-  return sc;
+  return scene_kept(sc);
 }
 
 /* 2 x 3 x 2: the last axis is the fastest, so id = 6 i + 2 j + k. */
@@ -20,8 +20,8 @@ static void the_last_axis_is_the_fastest(CHECK_STATE)
     scene sc = scene_of(s, id);
     int i = (int)(id / 6), j = (int)(id / 2 % 3), k = (int)(id % 2);
     assert_int_equal(sc.hbm.samples, i ? 128 : 32);
-    CHECK_NEAR(sc.contacts[0].law.gap, j - 1.0, 0, "scene %ld", id);
-    CHECK_NEAR(sc.force, k ? 10.0 : 1.0, 0, "scene %ld", id);
+    CHECK_NEAR(sc.structure->contacts[0].given.law.gap, j - 1.0, 0, "scene %ld", id);
+    CHECK_NEAR(sc.structure->loads->amplitude, k ? 10.0 : 1.0, 0, "scene %ld", id);
     assert_int_equal(sc.hbm.keep_mean, !k);
     assert_int_equal(sc.hbm.harmonics, 7);
     assert_int_equal(study_index(s, id, 1), j);
@@ -36,9 +36,10 @@ static void ranges_hit_what_one_expects(CHECK_STATE)
       "study: t\n" CONTACT_CASE "vary:\n  - contacts[0].gap: {from: -5, to: 3, count: 17}\n"
       "  - contacts[0].normal_stiffness: {from: 1e2, to: 1e5, count: 7, scale: log}\n  - oscillator.damping: {from: "
       "0.1, to: 0.7, count: 3}\n");
-  for (int i = 0; i < 17; ++i) CHECK_NEAR(scene_of(s, i * 21L).contacts[0].law.gap, -5 + 0.5 * i, 0, "value %d", i);
+  for (int i = 0; i < 17; ++i)
+    CHECK_NEAR(scene_of(s, i * 21L).structure->contacts[0].given.law.gap, -5 + 0.5 * i, 0, "value %d", i);
   for (int i = 0; i < 7; i += 2)
-    CHECK_NEAR(scene_of(s, i * 3L).contacts[0].law.kn,
+    CHECK_NEAR(scene_of(s, i * 3L).structure->contacts[0].given.law.kn,
                i == 0   ? 1e2
                : i == 2 ? 1e3
                : i == 4 ? 1e4
@@ -46,9 +47,10 @@ static void ranges_hit_what_one_expects(CHECK_STATE)
                0, "value %d", i);
   /* between decades pow(10, x)'s argument errs by half an ulp of 5: ln(10) 4.5e-16, and half an ulp of its own */
   for (int i = 1; i < 7; i += 2)
-    CHECK_NEAR(scene_of(s, i * 3L).contacts[0].law.kn / (sqrt(10) * pow(10, 2 + i / 2)), 1, 2e-15, "value %d", i);
-  CHECK_NEAR(scene_of(s, 0).damping, 0.1, 0, "first");
-  CHECK_NEAR(scene_of(s, 2).damping, 0.7, 0, "last");
+    CHECK_NEAR(scene_of(s, i * 3L).structure->contacts[0].given.law.kn / (sqrt(10) * pow(10, 2 + i / 2)), 1, 2e-15,
+               "value %d", i);
+  CHECK_NEAR(*scene_of(s, 0).structure->damping.v, 0.1, 0, "first");
+  CHECK_NEAR(*scene_of(s, 2).structure->damping.v, 0.7, 0, "last");
   study_free(s);
 }
 
@@ -116,9 +118,9 @@ static void the_largest_study(CHECK_STATE)
       "vary:\n  - {oscillator.mass: {from: 1, to: 2, count: 1000}}\n  - {oscillator.damping: {from: 1, to: 2, count: "
       "1000}}\n");
   assert_int_equal(s->n_scenes, 1000000);
-  CHECK_NEAR(scene_of(s, 999999).damping, 2, 0, "last");
-  CHECK_NEAR(scene_of(s, 999000).mass, 2, 0, "last");
-  CHECK_NEAR(scene_of(s, 999000).damping, 1, 0, "first");
+  CHECK_NEAR(*scene_of(s, 999999).structure->damping.v, 2, 0, "last");
+  CHECK_NEAR(*scene_of(s, 999000).structure->mass.v, 2, 0, "last");
+  CHECK_NEAR(*scene_of(s, 999000).structure->damping.v, 1, 0, "first");
   study_free(s);
 }
 

@@ -95,7 +95,7 @@ static void check_monodromy(const exact_way *way, const char *what, scene sc, do
   }
   if (no_slip) { /* volume shrinks by the damping alone, in every phase without slip */
     double det = monodromy[0] * monodromy[1 + n] - monodromy[1] * monodromy[n],
-           damping = exp(-sc.damping / sc.mass * 2 * PI / omega);
+           damping = exp(-*sc.structure->damping.v / *sc.structure->mass.v * 2 * PI / omega);
     CHECK_NEAR(det, damping, 64 * DBL_EPSILON * size * size, "%s: determinant", what);
   }
   integrate_free(in);

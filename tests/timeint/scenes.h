@@ -2,13 +2,12 @@
 #pragma once
 
 #include "compare/study/scene_solvers.h"
+#include "tests/oscillator.h"
 #include "tests/reference_scenes.h"
 
 static inline scene scene_linear(double mass, double damping, double stiffness, double force)
 {
-  scene sc;
-  memset(&sc, 0, sizeof sc);
-  sc.mass = mass, sc.damping = damping, sc.stiffness = stiffness, sc.force = force;
+  scene sc = scene_oscillator(mass, damping, stiffness, force);
   sc.transient.regularisation = 1e-4;
   sc.transient.tolerance = 1e-9;
   sc.transient.max_periods = 20000;
@@ -17,8 +16,7 @@ static inline scene scene_linear(double mass, double damping, double stiffness, 
 
 static inline void scene_add(scene *sc, double kt, double kn, double mu, double gap, double angle_deg)
 {
-  sc->contacts[sc->n_contacts++] =
-      (scene_contact){.law = {.kt = kt, .kn = kn, .mu = mu, .gap = gap}, .angle_deg = angle_deg};
+  scene_add_contact(sc, (scene_contact){.law = {.kt = kt, .kn = kn, .mu = mu, .gap = gap}, .angle_deg = angle_deg});
 }
 
 static inline scene scene_reference(const char *name)

@@ -263,7 +263,7 @@ static void soft_and_overdamped_scenes_follow_cvode(CHECK_STATE)
   for (int i = 0; i < 5; ++i)
     for (int j = 0; j < 4; ++j) {
       scene sc = one(100, 300, 200, 0.3, -0.5, 45);
-      sc.damping = damping[i], sc.stiffness = stiffness[j];
+      *sc.structure->damping.v = damping[i], *sc.structure->stiffness.v = stiffness[j];
       scaled_model m = exact_model(sc, 7, 100 / (49 + 7 * damping[i]));
       integrator *in = closed_of(&m), *ref = cvode_of(&m);
       double y[SCENE_MAX_STATES] = {0}, z[SCENE_MAX_STATES] = {0};

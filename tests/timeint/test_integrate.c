@@ -85,14 +85,14 @@ static void a_period_has_no_memory(CHECK_STATE)
   integrate_free(in);
 }
 
-/* x'' = ... + 0.2 x^3 beyond its saddle at 2.24 ends in finite time as 3.2/(t* - t): CVODE's step is a fixed part of t* - t,
- * 1/30 at this tolerance, so that a factor e takes 30 steps and ln 1e9 of them 600. Without a bound it walks on through
- * the ten million steps a period may have. */
+/* x'' = ... + 0.2 x^3 beyond its saddle at 2.24 ends in finite time as 3.2/(t* - t): CVODE's step is a fixed part of
+ * t* - t, 1/30 at this tolerance, so that a factor e takes 30 steps and ln 1e9 of them 600. Without a bound it walks on
+ * through the ten million steps a period may have. */
 static void what_escapes_ends_in_few_steps(CHECK_STATE)
 {
   scene sc = scene_linear(1, 0.05, 1, 0.25);
   scaled_model m;
-  sc.contacts[sc.n_contacts++] = (scene_contact){.kind = CONTACT_POLYNOMIAL, .law = {.power = {0, -0.2}}};
+  scene_add_contact(&sc, (scene_contact){.kind = CONTACT_POLYNOMIAL, .law = {.power = {0, -0.2}}});
   scene_scaled(&m, &sc, 0.5, 1);
   CHECK_MADE(integrator, in, integrate_new_regularised(m.base, 1e-8, &in));
   double y[SCENE_MAX_STATES] = {10};

@@ -23,17 +23,17 @@ static bool frictional(const contact *c) { return c->kt > 0 && c->kn > 0 && c->m
 
 static linear_case orbit_of(const scene *sc, double omega, const double *w)
 {
-  linear_case l = {.k = sc->stiffness};
+  linear_case l = {.k = *sc->structure->stiffness.v};
   double d = 0, c, s;
-  for (int j = 0; j < sc->n_contacts; ++j) {
-    const contact *law = &sc->contacts[j].law;
-    scene_direction(&sc->contacts[j], &c, &s);
+  for (int j = 0; j < sc->structure->n_contacts; ++j) {
+    const contact *law = &sc->structure->contacts[j].given.law;
+    scene_direction(&sc->structure->contacts[j].given, &c, &s);
     if (!(law->gap > 0)) continue;
     l.k += law->kn * s * s + (frictional(law) ? law->kt * c * c : 0);
     d += frictional(law) ? law->kt * c * w[j] : 0;
   }
   l.center = d / l.k;
-  l.z = linear_response(sc->mass, sc->damping, l.k, sc->force, omega);
+  l.z = linear_response(*sc->structure->mass.v, *sc->structure->damping.v, l.k, sc->structure->loads->amplitude, omega);
   return l;
 }
 
@@ -42,10 +42,10 @@ static scene_state state_of(const scene *sc, double omega, const double *w, doub
 {
   const linear_case l = orbit_of(sc, omega, w);
   scene_state st = {.x = l.center + creal(l.z) + dx, .v = creal(I * omega * l.z) + dv};
-  for (int j = 0; j < sc->n_contacts; ++j) {
+  for (int j = 0; j < sc->structure->n_contacts; ++j) {
     double c, s;
-    scene_direction(&sc->contacts[j], &c, &s);
-    st.w[j] = sc->contacts[j].law.gap > 0 ? w[j] : c * st.x;
+    scene_direction(&sc->structure->contacts[j].given, &c, &s);
+    st.w[j] = sc->structure->contacts[j].given.law.gap > 0 ? w[j] : c * st.x;
   }
   return st;
 }
@@ -99,12 +99,12 @@ static void same_as_marching(const scene *from, const char *name, double omega, 
   for (int i = 0; i < TIMEINT_WAVE; ++i) CHECK_NEAR(r.wave[i], m.wave[i], tol, "%s: wave[%d]", name, i);
   CHECK_NEAR(st.x, sm.x, tol, "%s", name);
   CHECK_NEAR(st.v, sm.v, tol * omega, "%s", name);
-  for (int j = 0; j < sc.n_contacts; ++j) CHECK_NEAR(st.w[j], sm.w[j], 2 * tol, "%s: w[%d]", name, j);
+  for (int j = 0; j < sc.structure->n_contacts; ++j) CHECK_NEAR(st.w[j], sm.w[j], 2 * tol, "%s: w[%d]", name, j);
   assert_int_equal(r.regime, m.regime);
   assert_int_equal(r.period_multiple, 1);
   assert_int_equal(r.method, TIMEINT_BY_CLOSED_FORM);
   assert_int_equal(r.free_sliders, free_sliders);
-  CHECK_NEAR(r.multiplier, exp(-PI * sc.damping / (sc.mass * omega)), 1e-15, "%s", name);
+  CHECK_NEAR(r.multiplier, exp(-PI * *sc.structure->damping.v / (*sc.structure->mass.v * omega)), 1e-15, "%s", name);
   CHECK_NEAR(r.contraction, r.multiplier, 0, "%s", name);
   CHECK_LE(fabs(r.closure), 0, "%s", name);
   timeint_free(ti);
@@ -137,7 +137,7 @@ static void measures(CHECK_STATE)
   }
   b10.transient.regularisation = 0.02; /* a slider that lags visibly; 40 widths of the corner leave it a fifth of the
                                           gap */
-  b10.contacts[0].law.gap = -20;
+  b10.structure->contacts[0].given.law.gap = -20;
   b10.transient.law = TRANSIENT_LAW_REGULARISED;
   same_as_marching(&b10, "b10, lagging", 9, none, 0.5, 0);
 }
@@ -232,7 +232,7 @@ static bool check_farthest(uint64_t *seed, const scene *sc, double omega, double
   const double size = cabs(orbit_of(sc, omega, none).z);
   scene_state a = state_of(sc, omega, none, 0, 0), b = a;
   b.x += uniform(seed, -reach, reach) * size, b.v += uniform(seed, -reach, reach) * size * omega;
-  for (int j = 0; j < sc->n_contacts; ++j) b.w[j] += uniform(seed, -reach, reach) * size;
+  for (int j = 0; j < sc->structure->n_contacts; ++j) b.w[j] += uniform(seed, -reach, reach) * size;
   double low = 0, high = 1;
   bool yes = is_final_from(ti, omega, &a);
   for (int i = 0; i < 40 && yes; ++i) {
@@ -252,13 +252,15 @@ static bool check_farthest(uint64_t *seed, const scene *sc, double omega, double
     memcpy(ti->y, began, (size_t)ti->n * sizeof *ti->y);
     assert_false(state_changes(ti));
     double k = scene_k(&ti->scaled);
-    for (int j = 0; j < sc->n_contacts; ++j)
-      if (is_closed(&ti->scaled, j, end)) k += scene_stuck_stiffness(&sc->contacts[j]) / (sc->mass * omega * omega);
+    for (int j = 0; j < sc->structure->n_contacts; ++j)
+      if (is_closed(&ti->scaled, j, end))
+        k += scene_stuck_stiffness(&sc->structure->contacts[j].given) / (*sc->structure->mass.v * omega * omega);
     double left = 1.1 * hypot(began[0] - end[0], (began[1] - end[1]) / sqrt(k)) * pow(r.multiplier, PERIODS) + 1e-6;
     CHECK_NEAR(ti->y[0], end[0], left, "X");
     CHECK_NEAR(ti->y[1], end[1], left * sqrt(k), "P");
-    for (int j = 0; j < sc->n_contacts; ++j)
-      if (frictional(&sc->contacts[j].law)) CHECK_NEAR(ti->y[SCALED_W + j], end[SCALED_W + j], left, "W");
+    for (int j = 0; j < sc->structure->n_contacts; ++j)
+      if (frictional(&sc->structure->contacts[j].given.law))
+        CHECK_NEAR(ti->y[SCALED_W + j], end[SCALED_W + j], left, "W");
   }
   timeint_free(ti);
   return yes;
@@ -288,16 +290,16 @@ static void a_yes_is_right(CHECK_STATE)
  * there, and the motion is the closed form to the integrator's errors. */
 static void check_up_to_the_edge(const scene *from, const char *name, double omega, const double *w, int law)
 {
-  scene sc = *from;
+  scene sc = scene_own(from);
   sc.transient.law = law;
-  double low = 1e-3 * from->force, high = 1e3 * from->force;
+  double low = 1e-3 * from->structure->loads->amplitude, high = 1e3 * from->structure->loads->amplitude;
   for (int i = 0; i < 100; ++i) {
-    sc.force = sqrt(low * high);
+    sc.structure->loads->amplitude = sqrt(low * high);
     scene_state st = state_of(&sc, omega, w, 0, 0);
-    *(is_final(&sc, omega, &st) ? &low : &high) = sc.force;
+    *(is_final(&sc, omega, &st) ? &low : &high) = sc.structure->loads->amplitude;
   }
   for (int above = 0; above < (law == TRANSIENT_LAW_EXACT ? 2 : 1); ++above) {
-    sc.force = low * (1 + 1e-5 * above);
+    sc.structure->loads->amplitude = low * (1 + 1e-5 * above);
     timeint *ti = make(&sc);
     scene_state st = state_of(&sc, omega, w, 0, 0);
     CHECK_LE(is_final_from(ti, omega, &st), !above, "%s at %g: the edge is at %g", name, omega, low);
@@ -319,7 +321,7 @@ static void edges(CHECK_STATE)
                other[SCENE_MAX_CONTACTS] = {0.1, 0, -0.05};
   scene a10 = scene_a10(), b10 = scene_b10(), c2 = scene_c2(), gap1 = scene_gap1(), many = scene_many();
   scene smooth = scene_a10(); /* mu kn sin > kt cos: separation ends it, not slip */
-  smooth.contacts[0].law.mu = 0;
+  smooth.structure->contacts[0].given.law.mu = 0;
   for (int law = 0; law < 2; ++law)
     for (int coarse = 0; coarse < 2; ++coarse) {
       a10.transient.regularisation = b10.transient.regularisation = c2.transient.regularisation = coarse ? 1e-2 : 1e-4;
@@ -366,12 +368,12 @@ static void undamped(CHECK_STATE)
   const double none[SCENE_MAX_CONTACTS] = {0};
   const scene_state rest = {0};
   scene sc = scene_b10();
-  sc.damping = 0;
+  *sc.structure->damping.v = 0;
   scene_state on = state_of(&sc, 9, none, 0, 0), off = state_of(&sc, 9, none, 1e-6, 0);
   assert_true(is_final(&sc, 9, &on));
   assert_false(is_final(&sc, 9, &off)); /* the free motion does not decay */
   assert_false(is_final(&sc, 9, &rest));
-  sc.force = 0;
+  sc.structure->loads->amplitude = 0;
   timeint_result r;
   timeint *ti = make(&sc);
   assert_true(is_final_from(ti, 9, &rest));
@@ -381,7 +383,7 @@ static void undamped(CHECK_STATE)
   timeint_free(ti);
   scene resonance = scene_linear(1, 0, 81, 10);
   assert_false(is_final(&resonance, 9, &rest));
-  resonance.damping = 1e-6; /* it settles, after some million periods */
+  *resonance.structure->damping.v = 1e-6; /* it settles, after some million periods */
   assert_true(is_final(&resonance, 9, &rest));
 }
 

@@ -32,8 +32,8 @@ static void check_same(const scene *sc, int n, double omega, const double start[
 {
   double one_y[TIMEINT_W + 1], y[TIMEINT_W + MOST];
   const timeint_result one = steady_state(sc, 1, omega, start, one_y), r = steady_state(sc, n, omega, start, y);
-  const double stiffest = sc->stiffness + scene_stuck_stiffness(&sc->contacts[0]);
-  const double stretch = fmax(1, sqrt(stiffest / sc->mass) / omega);
+  const double stiffest = *sc->structure->stiffness.v + scene_stuck_stiffness(&sc->structure->contacts[0].given);
+  const double stretch = fmax(1, sqrt(stiffest / *sc->structure->mass.v) / omega);
   const double tol = 2 * stretch * sc->transient.tolerance * one.amplitude;
   const char *law = sc->transient.law == TRANSIENT_LAW_EXACT ? "exact" : "regularised";
   CHECK_LE(one.closure, sc->transient.tolerance, "%s, one contact", law);

@@ -256,8 +256,8 @@ static void unstable_orbits_are_found_and_named(CHECK_STATE)
 static void anderson_ends_with_the_matrix(CHECK_STATE)
 {
   scene rows[] = {scene_c2(), scene_c2()};
-  rows[1].force = 0;
-  rows[1].contacts[0].law.gap = -1;
+  rows[1].structure->loads->amplitude = 0;
+  rows[1].structure->contacts[0].given.law.gap = -1;
   for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i) {
     timeint *ti = made(rows[i], TRANSIENT_LAW_EXACT, TRANSIENT_STEADY_SHOOTING, TRANSIENT_START_HBM);
     scene_state y = {.all = {0}};
@@ -268,7 +268,7 @@ static void anderson_ends_with_the_matrix(CHECK_STATE)
     CHECK_FILLED(shoot_report, newton, shoot_newton(ti->shoot, 1, 10, orbit_goal(ti), NULL, &newton));
     CHECK_NEAR(cabs(anderson.multiplier), cabs(newton.multiplier), 1e-7, "case %zu", i);
     if (i == 1) {
-      const double free_mass = exp(-0.5 * TWO_PI * rows[i].damping / (rows[i].mass * 9));
+      const double free_mass = exp(-0.5 * TWO_PI * *rows[i].structure->damping.v / (*rows[i].structure->mass.v * 9));
       CHECK_NEAR(cabs(anderson.multiplier), free_mass, 1e-12, "at rest");
     }
     timeint_free(ti);

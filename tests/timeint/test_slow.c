@@ -33,7 +33,9 @@ static void distance_is_no_larger_than_closure(CHECK_STATE)
 {
   scene sc = scene_r2();
   const double omega = 700;
-  double complex X = sc.force / (sc.stiffness - sc.mass * omega * omega + I * sc.damping * omega);
+  double complex X =
+      sc.structure->loads->amplitude /
+      (*sc.structure->stiffness.v - *sc.structure->mass.v * omega * omega + I * *sc.structure->damping.v * omega);
   const int allowed[] = {1200, 4000, 9000, 20000};
   int known = 0;
   for (int i = 0; i < 4; ++i) {

@@ -75,8 +75,8 @@ static double distance(const curve_point *p, const curve_point *a, const curve_p
 
 void curve_response_name(const scene *sc, int r, char text[RESPONSE_NAME])
 {
-  char name[RESPONSE_NAME] = "x";
-  if (sc->structure) structure_response_name(sc->structure, r, name, sizeof name);
+  char name[RESPONSE_NAME];
+  structure_response_name(sc->structure, r, name, sizeof name);
   const bool number = strspn(name, "0123456789") == strlen(name);
   if (number) snprintf(text, RESPONSE_NAME, "DOF %.*s", RESPONSE_NAME - 5, name);
   else snprintf(text, RESPONSE_NAME, "%s", name);

@@ -224,8 +224,8 @@ static hc_status plot_waves(plot_order *p, const scene *sc, const steady_states 
                 figure_words(&g, "start: %s; %s", wave[i]->start, steady_verdict_text(wave[i], word)),
                 "$wave%d using 1:2 with lines", i);
   /* Where contacts close, if the motions pass there: x sin(alpha) + gap = 0. */
-  for (int j = 0; j < sc->n_contacts; ++j) {
-    const moving_contact c = scene_moving_contact(&sc->contacts[j]);
+  for (int j = 0; j < scene_contact_count(sc) && scene_is_oscillator(sc); ++j) {
+    const moving_contact c = scene_moving_contact(scene_contact_at(sc, j));
     const double x = c.cv[0] != 0 ? -c.law.gap / c.cv[0] : NAN;
     if (x >= low && x <= high)
       figure_item(&g, figure_look(&g, 7, "lw 1 dt 3 lc rgb '#777777'"),

@@ -259,7 +259,7 @@ static json_t *all_json(const all_answers *all)
   json_t *curves = json_array();
   for (int k = 0; k < N_STIFFNESS; ++k) {
     json_t *row = json_array();
-    kn[k] = all->curve[k][0].sc.contacts[0].law.kn;
+    kn[k] = all->curve[k][0].sc.structure->contacts[0].given.law.kn;
     for (int h = 0; h < N_HARM; ++h) {
       const followed *f = &all->curve[k][h];
       json_array_append_new(row, json_pack("{s:o, s:O}", "working",
@@ -279,6 +279,7 @@ hc_status aliasing_answers(const scene *sc, int n_omega, const double *omega, in
                            const hc_monitor *monitor, json_t **out)
 {
   *out = NULL;
+  bool failed = false;
   all_answers *all = calloc(1, sizeof *all);
   if (!all) return HC_NO_MEMORY;
   *all = (all_answers){.n_omega = n_omega, .first = first, .omega = omega};
@@ -289,16 +290,21 @@ hc_status aliasing_answers(const scene *sc, int n_omega, const double *omega, in
     for (int h = 0; h < N_HARM; ++h) {
       followed *f = &all->curve[k][h];
       *f = (followed){.sc = *sc, .working = {NAN, NAN}};
+      failed |= !(f->sc.structure = structure_copy(sc->structure));
       f->sc.hbm.harmonics = harmonics[h];
       f->sc.hbm.force = HBM_FORCE_EXACT;
-      for (int j = 0; j < sc->n_contacts; ++j) f->sc.contacts[j].law.kn *= stiffness[k];
+      for (int j = 0; j < scene_contact_count(sc) && !failed; ++j)
+        f->sc.structure->contacts[j].given.law.kn *= stiffness[k];
       for (int i = 0; i < ALIASING_MOST_OMEGAS; ++i) f->at[i].amplitude = NAN;
     }
-  hc_status st = workers_run(jobs, N_STIFFNESS * N_HARM, follow_curve, all, monitor);
+  hc_status st = failed ? HC_NO_MEMORY : workers_run(jobs, N_STIFFNESS * N_HARM, follow_curve, all, monitor);
   if (st == HC_OK) st = workers_run(jobs, N_STIFFNESS * N_HARM, answer_curve, all, monitor);
   if (st == HC_OK && !(*out = all_json(all))) st = HC_NO_MEMORY;
   for (int k = 0; k < N_STIFFNESS; ++k)
-    for (int h = 0; h < N_HARM; ++h) json_decref(all->curve[k][h].states);
+    for (int h = 0; h < N_HARM; ++h) {
+      json_decref(all->curve[k][h].states);
+      structure_free(all->curve[k][h].sc.structure);
+    }
   free(all);
   return st;
 }

@@ -41,7 +41,7 @@ static void write_case(page *p) { pass_case(p, html_text); }
  * (interfaces/lab/page/state.js). It opens where both sides differ most. The lab has no structures. */
 static void write_lab_address(page *p)
 {
-  if (p->d->sc->structure) return;
+  if (!scene_is_oscillator(p->d->sc)) return;
   const double omega = words_worst_omega(p->d);
   fputs("lab.html#case=", p->to);
   pass_case(p, html_percent);
@@ -56,7 +56,7 @@ static void write_budget(page *p)
   const char *const heads[] = {"omega",
                                p->d->sc->in_cycles ? "frequency" : NULL,
                                "branch",
-                               p->d->sc->structure ? "response" : NULL,
+                               !scene_is_oscillator(p->d->sc) ? "response" : NULL,
                                "verdict",
                                "hbm_amplitude",
                                "transient_amplitude",
@@ -74,7 +74,7 @@ static void write_budget(page *p)
     html_cell_number(p->to, r->omega);
     if (p->d->sc->in_cycles) html_cell_number(p->to, scene_frequency(p->d->sc, r->omega));
     html_cell_number(p->to, r->branch >= 0 ? r->branch : NAN);
-    if (p->d->sc->structure) html_cell_text(p->to, r->response_name);
+    if (!scene_is_oscillator(p->d->sc)) html_cell_text(p->to, r->response_name);
     html_cell_text(p->to, comparison_verdict_text(r, text));
     html_cell_number(p->to, r->branch >= 0 && r->hbm_status == HC_OK ? r->hbm.amplitude : NAN);
     html_cell_number(p->to, motion_is_measured(r->transient_status) ? r->transient.amplitude : NAN);
@@ -123,7 +123,7 @@ static void write_specials(page *p)
 /* ---- the structure --------------------------------------------------------------------------- */
 
 /* For page.css: what is of one degree of freedom alone, or of several, is shown for that alone. */
-static void write_kind(page *p) { fputs(p->d->sc->structure ? "structure" : "oscillator", p->to); }
+static void write_kind(page *p) { fputs(!scene_is_oscillator(p->d->sc) ? "structure" : "oscillator", p->to); }
 
 /* omega or frequency as the case has it, and damping of one limit. */
 static void write_mode(page *p, const model_mode *mode)
@@ -138,7 +138,7 @@ static void write_modes(page *p)
   const bool cycles = p->d->sc->in_cycles;
   const char *const heads[] = {"mode", cycles ? "frequency_open" : "omega_open", "damping_open",
                                cycles ? "frequency_stuck" : "omega_stuck", "damping_stuck"};
-  if (!p->d->sc->structure) return;
+  if (scene_is_oscillator(p->d->sc)) return;
   model_mode *open = calloc(2 * (size_t)m->n, sizeof *open);
   hc_status st = open ? model_mode_list(m, false, open) : HC_NO_MEMORY;
   if (st == HC_OK) st = model_mode_list(m, true, open + m->n);
@@ -255,10 +255,10 @@ static void write_piece(page *p, const char *name, size_t length)
   for (size_t i = 0; i < sizeof tables / sizeof *tables; ++i) {
     const struct row_table *t = &tables[i];
     if (strlen(t->name) != length || memcmp(t->name, name, length) != 0) continue;
-    const bool shown = t->kind == ROWS_PROVE ? t->n > 0 : t->kind != ROWS_COMPARE_CONTACT || d->sc->structure;
+    const bool shown = t->kind == ROWS_PROVE ? t->n > 0 : t->kind != ROWS_COMPARE_CONTACT || !scene_is_oscillator(d->sc);
     if (shown)
       html_rows(p->to, t->caption, t->kind,
-                (d->sc->in_cycles ? ROWS_IN_CYCLES : 0u) | (d->sc->structure ? ROWS_RESPONSES : 0u), t->n, t->rows,
+                (d->sc->in_cycles ? ROWS_IN_CYCLES : 0u) | (!scene_is_oscillator(d->sc) ? ROWS_RESPONSES : 0u), t->n, t->rows,
                 without);
     return;
   }

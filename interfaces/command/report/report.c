@@ -48,7 +48,7 @@ static hc_status append_curve(const scene *sc, const comparison *c, const hc_mon
   double from, to;
   for (int i = 0; i < c->n_rows && asked.n < NUMBER_LIST_MAX; ++i) asked.v[asked.n++] = c->rows[i].omega;
   comparison_sweep(sc->omega_from, sc->omega_to, &asked, &from, &to);
-  const bool large = sc->structure && sc->structure->n > MANY_COORDINATES;
+  const bool large = sc->structure->n > MANY_COORDINATES;
   const hbm_curve *curve = large && specials ? &c->curve : &traced;
   scene solved = *sc;
   if (curve == &c->curve) solved.hbm = report_settings(sc, c);
@@ -103,7 +103,7 @@ static json_t *response_object(const scene *sc, const comparison *c, int respons
 /* Without harmonic 0 a scene with one is another. */
 static bool has_static_load(const scene *sc)
 {
-  for (int l = 0; sc->structure && l < sc->structure->n_loads; ++l)
+  for (int l = 0; l < sc->structure->n_loads; ++l)
     if (sc->structure->loads[l].harmonic == 0) return true;
   return false;
 }
@@ -118,7 +118,7 @@ static hc_status curve_json(const scene *sc, const comparison *c, const hc_monit
   enum { MOST = CURVE_MOST_RESPONSES };
   json_t *curve[MOST] = {NULL}, *turned[MOST] = {NULL}, *specials = json_array();
   scene other_mean = *sc; /* with harmonic 0 dropped if *sc keeps it, and the other way round */
-  const int all = sc->structure ? structure_response_count(sc->structure) : 1, n = all < MOST ? all : MOST;
+  const int all = structure_response_count(sc->structure), n = all < MOST ? all : MOST;
   other_mean.hbm.keep_mean = !sc->hbm.keep_mean;
   for (int r = 0; r < n; ++r) curve[r] = json_object(), turned[r] = json_object();
   hc_status st = append_curve(sc, c, monitor, n, curve, specials);
@@ -164,15 +164,15 @@ hc_status report_gather(const scene *sc, int jobs, progress *bar, report_data *o
   progress_relabel(bar, "comparing");
   hc_status st = scene_setup(sc, &out->setup);
   out->setup.jobs = jobs;
-  out->setup.contacts = sc->structure != NULL;
+  out->setup.contacts = !scene_is_oscillator(sc);
   out->setup.advise = true;
   out->setup.spare = out->setup.model->n > COMPARE_LARGE; /* page.html says so */
   if (st == HC_OK) st = comparison_run(&out->setup, monitor, &out->comparison);
   if (st != HC_OK) return st;
   comparison *c = &out->comparison;
-  for (int i = 0; i < c->n_rows && sc->structure; ++i)
+  for (int i = 0; i < c->n_rows && !scene_is_oscillator(sc); ++i)
     structure_response_name(sc->structure, c->rows[i].response, c->rows[i].response_name, RESPONSE_NAME);
-  for (int i = 0; i < c->n_contacts && sc->structure; ++i)
+  for (int i = 0; i < c->n_contacts && !scene_is_oscillator(sc); ++i)
     snprintf(c->contacts[i].name, RESPONSE_NAME, "%s", scene_contact_at(sc, c->contacts[i].contact)->name);
   progress_relabel(bar, "response curve");
   json_t *others = NULL;
@@ -184,7 +184,7 @@ hc_status report_gather(const scene *sc, int jobs, progress *bar, report_data *o
   double omega[ALIASING_MOST_OMEGAS];
   int first;
   const int n = choose_omegas(&out->comparison, omega, &first);
-  if (n > 0 && !sc->structure && sc->n_contacts > 0) /* the section is of one degree of freedom */
+  if (n > 0 && scene_is_oscillator(sc) && scene_contact_count(sc) > 0) /* the section is of one degree of freedom */
     st = aliasing_answers(sc, n, omega, first, jobs, monitor, &out->aliasing);
   else out->aliasing = json_null();
   if (st != HC_OK) return st;

@@ -174,7 +174,7 @@ hc_status structure_json(const scene *sc, const comparison *c, json_t *others, c
 {
   model *m = NULL;
   *out = NULL;
-  if (!sc->structure) return *out = json_null(), HC_OK;
+  if (scene_is_oscillator(sc)) return *out = json_null(), HC_OK;
   hc_status st = scene_model(sc, &m);
   if (st != HC_OK) return st;
   shown d = {.sc = sc, .c = c, .m = m, .monitor = monitor};

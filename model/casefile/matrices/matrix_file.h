@@ -7,9 +7,10 @@
 
 #include <stddef.h>
 
-#include "numerics/base/message.h"
 #include "numerics/base/status.h"
 #include "numerics/sparse.h"
+
+struct message; /* numerics/base/message.h */
 
 /* What a row of a matrix stands for, where its file says it. */
 typedef struct matrix_label {
@@ -28,11 +29,11 @@ enum {
  * none that can be read, with the words for it alone ("cannot be opened: ..."), which are the caller's to place;
  * HC_NO_MEMORY. */
 hc_status matrix_file_read(const char *path, const char *part, int expected, sparse *out, matrix_label **labels,
-                           message *m);
+                           struct message *m);
 
 /* The same from text[length], which `name` stands for. */
 hc_status matrix_file_parse(const char *name, const char *text, size_t length, const char *part, int expected,
-                            sparse *out, matrix_label **labels, message *m);
+                            sparse *out, matrix_label **labels, struct message *m);
 
 /* Where the file at `path`, which has been read before, gives entry (row, column) of the part, both from 0, or by
  * symmetry its transpose: line and column from 1, or *line = 0 where it does not. */

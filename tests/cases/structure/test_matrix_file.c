@@ -1,4 +1,5 @@
 /* test_matrix_file.c - Matrix Market files: what is read, and every mistake with its place. */
+#include "numerics/base/message.h"
 #include "tests/cases/structure/structure_text.h"
 
 #define HEAD(format, kind, symmetry) "%%MatrixMarket matrix " format " " kind " " symmetry "\n"

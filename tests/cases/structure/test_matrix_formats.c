@@ -1,4 +1,5 @@
 /* test_matrix_formats.c - matrices of CalculiX and Abaqus: what is read, and every mistake with its place. */
+#include "numerics/base/message.h"
 #include "tests/cases/structure/structure_text.h"
 
 enum { WORDS = 512 };

@@ -278,9 +278,8 @@ static void junit_escapes_what_it_is_given(CHECK_STATE)
 /* Settings that no case file can hold, so that harmonic balance cannot even begin. */
 static void a_comparison_that_cannot_begin_is_an_error(CHECK_STATE)
 {
-  scene sc;
-  memset(&sc, 0, sizeof sc);
-  sc.mass = sc.damping = sc.stiffness = sc.force = sc.omega_from = 1;
+  scene sc = scene_oscillator(1, 1, 1, 1);
+  sc.omega_from = 1;
   sc.omega_to = 2;
   sc.hbm.harmonics = HBM_MAX_HARMONICS + 1;
   CHECK_FILLED(compare_setup, setup, scene_setup(&sc, &setup));

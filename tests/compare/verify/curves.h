@@ -6,6 +6,7 @@
 #include "compare/verify/verify.h"
 #include "model/casefile/case_file.h"
 #include "tests/check.h"
+#include "tests/oscillator.h"
 
 enum { CURVE_ROOM = 512 };
 
@@ -30,13 +31,13 @@ static inline scene curve_scene(const char *path)
   scene sc;
   case_error err = {{0}};
   if (case_read(path, 0, NULL, &sc, &err) != HC_OK) fail_msg("%s", err.message);
-  return sc;
+  return scene_kept(sc);
 }
 
 static inline scene curve_spoil(const scene *sc, const spoiling *how)
 {
   static verify_mistakes wrong; /* until the next curve */
-  scene own = *sc;
+  scene own = scene_own(sc);
   own.hbm.restart = HBM_RESTART_INTERPOLATED;
   wrong = (verify_mistakes){.slider = how->slider_on_sample ? &verify_on_sample : how->slider,
                             .odd_only = how->odd_only,
@@ -47,7 +48,7 @@ static inline scene curve_spoil(const scene *sc, const spoiling *how)
   own.hbm.force = how->samples ? HBM_FORCE_SAMPLED : HBM_FORCE_EXACT;
   if (how->samples) own.hbm.samples = how->samples;
   if (how->change) how->change(&own);
-  if (how->no_contact) own.n_contacts = 0;
+  if (how->no_contact) scene_keep_contacts(&own, 0);
   return own;
 }
 

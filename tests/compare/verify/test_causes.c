@@ -122,18 +122,21 @@ static void columns_misread(CHECK_STATE)
   NAME_ALL(list);
 }
 
-static void twice_the_damping(scene *sc) { sc->damping *= 2; }
-static void some_more_mass(scene *sc) { sc->mass *= 1.13; }
-static void some_more_damping(scene *sc) { sc->damping *= 1.4; }
-static void other_sign(scene *sc) { sc->contacts[0].law.gap *= -1; }
+static void twice_the_damping(scene *sc) { *sc->structure->damping.v *= 2; }
+static void some_more_mass(scene *sc) { *sc->structure->mass.v *= 1.13; }
+static void some_more_damping(scene *sc) { *sc->structure->damping.v *= 1.4; }
+static void other_sign(scene *sc) { sc->structure->contacts[0].given.law.gap *= -1; }
 static void exchanged(scene *sc)
 {
-  const double kt = sc->contacts[0].law.kt;
-  sc->contacts[0].law.kt = sc->contacts[0].law.kn;
-  sc->contacts[0].law.kn = kt;
+  const double kt = sc->structure->contacts[0].given.law.kt;
+  sc->structure->contacts[0].given.law.kt = sc->structure->contacts[0].given.law.kn;
+  sc->structure->contacts[0].given.law.kn = kt;
 }
-static void without_friction(scene *sc) { sc->contacts[0].law.mu = 0; }
-static void twice_the_contact(scene *sc) { sc->contacts[0].law.kn *= 2, sc->contacts[0].law.kt *= 2; }
+static void without_friction(scene *sc) { sc->structure->contacts[0].given.law.mu = 0; }
+static void twice_the_contact(scene *sc)
+{
+  sc->structure->contacts[0].given.law.kn *= 2, sc->structure->contacts[0].given.law.kt *= 2;
+}
 
 /* Nothing touches with -gap: what the curve tells is that the contacts are missing. */
 static void numbers_of_another_model(CHECK_STATE)
@@ -167,7 +170,7 @@ static void branches_mistaken(CHECK_STATE)
   verify_clear(&r);
 }
 
-static void seven_percent_more_mass(scene *sc) { sc->mass *= 1.07; }
+static void seven_percent_more_mass(scene *sc) { *sc->structure->mass.v *= 1.07; }
 
 /* Nearly undamped, a larger mass and another unit of frequency give the same curve: neither is named, both are told. */
 static void equals_are_a_guess(CHECK_STATE)

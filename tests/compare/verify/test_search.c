@@ -172,7 +172,7 @@ static void what_was_not_found_is_no_difference(CHECK_STATE)
   verify_data_clear(&d);
 }
 
-static void twice_the_damping(scene *sc) { sc->damping *= 2; }
+static void twice_the_damping(scene *sc) { *sc->structure->damping.v *= 2; }
 
 /* Twice the damping, which cannot be solved for: nothing else is named, and it is said that this was not judged. */
 static void what_cannot_be_solved_is_said(CHECK_STATE)
@@ -181,7 +181,7 @@ static void what_cannot_be_solved_is_said(CHECK_STATE)
   const spoiling how = {.change = twice_the_damping};
   verify_data d = curve_make(&sc, &how, 4, 14, 9);
   for (int k = 0; k < 2; ++k) {
-    refused = k ? 2 * sc.damping : 0;
+    refused = k ? 2 * *sc.structure->damping.v : 0;
     CHECK_FILLED(verify_report, r, scene_verify_run(&sc, &d, NULL, &r));
     assert_true(r.causes == (k ? 0 : VERIFY_BIT(CAUSE_DAMPING)));
     assert_int_equal(verify_has(r.unsolved, CAUSE_DAMPING), k);
