@@ -629,23 +629,21 @@ static unsigned extra_of(const cli_common *common, rows_kind kind)
 
 table *cli_table(const cli_common *common, const char *title, rows_kind kind)
 {
-  int n;
-  const table_column *columns = rows_columns(kind, extra_of(common, kind), &n);
-  table *t = table_new(title, n, columns);
+  table_column columns[ROWS_MOST];
+  table *t = table_new(title, rows_columns(kind, extra_of(common, kind), columns), columns);
   table_spare(t, rows_spare(kind, common->scene->in_cycles));
   return t;
 }
 
 void cli_put_row(const cli_common *common, table *t, rows_kind kind, const void *row)
 {
-  int n;
   row_cell cells[ROWS_MOST];
-  rows_columns(kind, extra_of(common, kind), &n);
-  rows_cells(kind, row, extra_of(common, kind), cells);
+  const int n = rows_cells(kind, row, extra_of(common, kind), cells);
   for (int i = 0; i < n; ++i) {
     if (!cells[i].there) table_put_missing(t);
     else if (cells[i].kind == TABLE_TEXT) table_put_text(t, cells[i].as.text);
     else if (cells[i].kind == TABLE_INTEGER) table_put_integer(t, cells[i].as.integer);
+    else if (cells[i].kind == TABLE_SERIES) table_put_series(t, cells[i].as.series.n, cells[i].as.series.v);
     else table_put_real(t, cells[i].as.real);
   }
 }

@@ -107,9 +107,9 @@ static bool is_among(const char *name, const char *const *list)
 void html_rows(FILE *to, const char *caption, rows_kind kind, unsigned extra, int n, const void *rows,
                const char *const *without)
 {
-  int n_columns;
   const char *heads[ROWS_MOST];
-  const table_column *columns = rows_columns(kind, extra, &n_columns);
+  table_column columns[ROWS_MOST];
+  const int n_columns = rows_columns(kind, extra, columns);
   for (int j = 0; j < n_columns; ++j) heads[j] = is_among(columns[j].name, without) ? NULL : columns[j].name;
   html_table(to, caption, n_columns, heads);
   for (int i = 0; i < n; ++i) {
