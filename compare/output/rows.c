@@ -429,8 +429,9 @@ typedef struct row_column {
 KINDS(KIND_OF)
 
 #define KIND(kind, name, row, LIST, spare) \
-  [kind] = {name##_columns, LENGTH(name##_columns), name##_value, sizeof(row), spare},
+  [kind] = {#name, name##_columns, LENGTH(name##_columns), name##_value, sizeof(row), spare},
 static const struct kind {
+  const char *name;
   const row_column *columns;
   int n;
   void (*value)(const void *row, int at, row_cell *c);
@@ -440,6 +441,8 @@ static const struct kind {
 /* clang-format on */
 
 static bool is_in(const row_column *c, unsigned extra) { return (c->where & ~extra) == 0; }
+
+const char *rows_name(rows_kind kind) { return kinds[kind].name; }
 
 int rows_columns(rows_kind kind, unsigned extra, table_column columns[ROWS_MOST])
 {

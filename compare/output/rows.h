@@ -29,7 +29,7 @@ typedef enum {
  * programs alone, series of numbers among it. */
 enum { ROWS_IN_CYCLES = 1, ROWS_RESPONSES = 2, ROWS_IN_MEMORY = 4 };
 
-enum { ROWS_MOST = 64, ROWS_TEXT = 64 }; /* columns of a kind, asserted; bytes of a text, the end included */
+enum { ROWS_MOST = 64, ROWS_TEXT = 128 }; /* columns of a kind, asserted; bytes of a text, the end included */
 
 typedef struct row_series {
   int n;
@@ -49,6 +49,9 @@ typedef struct row_cell {
 
 /* The columns of a kind; how many. extra: a sum of ROWS_IN_CYCLES, ROWS_RESPONSES and ROWS_IN_MEMORY. */
 int rows_columns(rows_kind kind, unsigned extra, table_column columns[ROWS_MOST]);
+
+/* "frf", "steady_contact": what describe and docs/columns.txt call that kind. */
+const char *rows_name(rows_kind kind);
 
 /* For table_spare: which of them a narrow screen does without, the first ones first. */
 const char *const *rows_spare(rows_kind kind, bool in_cycles);

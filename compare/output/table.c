@@ -59,8 +59,13 @@ table *table_new(const char *title, int n_columns, const table_column *columns)
   }
   t->columns = malloc((size_t)n_columns * sizeof *columns);
   t->hidden = calloc((size_t)n_columns, sizeof *t->hidden);
-  if (t->columns) memcpy(t->columns, columns, (size_t)n_columns * sizeof *columns), t->n_columns = n_columns;
-  if (!t->columns || !t->hidden) give_up(t, HC_NO_MEMORY);
+  bool named = t->columns != NULL;
+  for (; named && t->n_columns < n_columns; t->n_columns += named) {
+    table_column *c = &t->columns[t->n_columns];
+    *c = columns[t->n_columns];
+    named = (c->name = strdup(c->name)) != NULL;
+  }
+  if (!named || !t->hidden) give_up(t, HC_NO_MEMORY);
   return t;
 }
 
@@ -79,6 +84,7 @@ void table_free(table *t)
     if (kind == TABLE_SERIES) free(t->cells[i].as.series);
   }
   for (size_t i = 0; i < t->n_notes; ++i) free(t->notes[i]);
+  for (int j = 0; j < t->n_columns; ++j) free((char *)t->columns[j].name);
   free(t->cells);
   free(t->notes);
   free(t->title);

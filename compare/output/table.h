@@ -34,7 +34,7 @@ typedef struct table table;
 /* A table is its holders': table_new's and each table_keep's; the last table_free frees it. NULL stays NULL. */
 table *table_keep(table *t);
 
-/* The columns are copied, not their names, which differ from each other. The title is copied and may be NULL.
+/* The columns and their names, which differ from each other, are copied, and so is the title, which may be NULL.
  * Appending after a failed allocation, or to NULL, does nothing; table_write reports HC_NO_MEMORY then. So it is with
  * HC_BUG after a mistake of the caller's: no columns, two of one name, a value that is not of its column's kind. */
 table *table_new(const char *title, int n_columns, const table_column *columns);
