@@ -11,6 +11,7 @@
 
 /* Questions about a row, for the lists below. */
 static bool settled(const steady_row *r) { return r->status == HC_OK; }
+static double period_of(const steady_row *r) { return TWO_PI * r->result.period_multiple / r->result.omega; }
 static bool measured(const steady_row *r) { return motion_is_measured(r->status); }
 static bool prediction_known(const comparison_row *r)
 {
@@ -106,6 +107,7 @@ static const char *stability_text(int s) { return s > 0 ? "stable" : s < 0 ? "un
     r->result.closure) \
   X(ALL, INTEGER, period_multiple, "", "periods of the load in one of the motion; 0: it does not repeat", true, \
     settled(r) ? r->result.period_multiple : 0) \
+  X(ALL, REAL, period, "time", "of the motion: period_multiple of those of the load", settled(r), period_of(r)) \
   X(ALL, INTEGER, steps, "", "of the integrator", true, r->result.steps) \
   STRONGEST_STATE(X, measured(r), r->result.regime) \
   X(ALL, TEXT, start, "", "where the motion began: rest, up, down, hbm branch 2", true, r->start) \
@@ -359,7 +361,7 @@ static const char *const of_frf[] = {
     "omega", "residual", "iterations", "multiplier", "rms", "min", "max", "mean", "harmonic_1", "contact", NULL};
 
 static const char *const of_transient[] = {
-    "omega", "steps", "multiplier", "free_sliders", "period_multiple", "periods", "rms", "from_regularisation", "min",
+    "omega", "steps", "period", "multiplier", "free_sliders", "period_multiple", "periods", "rms", "from_regularisation", "min",
     "max", "method", "contact", "lyapunov", "harmonic_1", "closure", "start", "mean", "second_frequency", NULL};
 
 static const char *const of_compare[] = {

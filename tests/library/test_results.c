@@ -179,6 +179,25 @@ static void series_make_the_measures(CHECK_STATE)
   hbmcheck_case_free(c);
 }
 
+/* Of a sub-harmonic, too: what is in csv and json by one line of rows.c is here. */
+static void the_period_is_that_of_the_motion(CHECK_STATE)
+{
+  hbmcheck_result *r;
+  hbmcheck_case *c = CASE2("hbm.harmonics=10");
+  double multiples = 0;
+  assert_int_equal(RUN(c, "transient", NULL, &r, "--at=5.11,8"), HBMCHECK_OK);
+  const hbmcheck_table *t = hbmcheck_result_table(r, 0);
+  for (int i = 0; i < hbmcheck_table_rows(t); ++i) {
+    const double multiple = hbmcheck_table_number(t, i, "period_multiple");
+    const double period = hbmcheck_table_number(t, i, "period") * hbmcheck_table_number(t, i, "omega");
+    multiples = fmax(multiples, multiple);
+    CHECK_NEAR(period, TWO_PI * multiple, 8 * 0x1p-52 * multiple, "row %d", i);
+  }
+  assert_true(multiples == 4);
+  hbmcheck_result_free(r);
+  hbmcheck_case_free(c);
+}
+
 /* Two turns and two changes of the contact; the summary counts what is there. */
 static void a_curve_has_special_points_and_a_summary(CHECK_STATE)
 {
@@ -386,6 +405,6 @@ static void version(CHECK_STATE)
 }
 
 CHECK_TESTS_WITH("library.results", 300, folder_make, folder_remove, as_the_command_says, series_make_the_measures,
-                 a_curve_has_special_points_and_a_summary, a_comparison_has_the_gates_numbers,
-                 arrays_are_taken_as_files_are, responses_and_contacts_have_names, columns_have_units_and_meanings,
-                 a_reduction_is_written, cases_and_messages, version)
+                 the_period_is_that_of_the_motion, a_curve_has_special_points_and_a_summary,
+                 a_comparison_has_the_gates_numbers, arrays_are_taken_as_files_are, responses_and_contacts_have_names,
+                 columns_have_units_and_meanings, a_reduction_is_written, cases_and_messages, version)

@@ -83,7 +83,8 @@ class Equal(Test):
                 said = table("transient", case, "--at", at)
                 found = hbmcheck.Model.from_yaml(case).transient([float(a) for a in at.split(",")])
                 self.same_columns(found, said, "omega amplitude max min rms mean harmonic_1 periods closure "
-                                               "period_multiple steps multiplier free_sliders".split())
+                                               "period_multiple period steps multiplier free_sliders".split())
+                np.testing.assert_allclose(found.period * found.omega, 2 * np.pi * found.period_multiple, rtol=1e-15)
                 self.assertEqual(list(found.contact), said["contact"])
                 np.testing.assert_allclose(found.wave.max(axis=1), found["max"], rtol=1e-3)  # of 512 samples
 
