@@ -74,7 +74,8 @@ hc_status response_summarise(hbm_solver *s, const hbm_curve *c, response_summary
                             .evaluations = c->evaluations,
                             .reached_end = c->n > 0 && c->end == HC_OK && !c->left_at_start,
                             .arclength = c->arclength,
-                            .left_at_start = c->left_at_start};
+                            .left_at_start = c->left_at_start,
+                            .inaccurate = c->inaccurate};
   out->peak_amplitude = out->peak_omega = out->peak_harmonic_1 = NAN;
   const hc_status st = c->n > 0 ? hbm_curve_peak(s, c, &peak) : HC_OK;
   if (st == HC_OK && peak.n > 0 && hbm_measure(s, peak.X, &m) == HC_OK) {

@@ -35,6 +35,7 @@ typedef struct response_row {
   hbm_measures measures;
   bool stability_known;
   hbm_stability stability; /* valid when known */
+  const double *series;    /* [2 H + 1] [length] of the response: the caller's, where it fills them; NULL: not known */
 } response_row;
 
 /* Point k of the curve, by its first response. */
@@ -63,6 +64,7 @@ typedef struct response_summary {
   long iterations, evaluations;
   double peak_amplitude, peak_omega, peak_harmonic_1; /* [length], [rad/time], [length] */
   bool reached_end, arclength, left_at_start;
+  bool inaccurate; /* somewhere the most that auto takes did not meet hbm.accuracy */
 } response_summary;
 /* HC_NO_MEMORY, or HC_OK also where no peak was found: NaN. */
 hc_status response_summarise(hbm_solver *s, const hbm_curve *c, response_summary *out);

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 """interface.py HBMCHECK [--check] - the tables of docs/interface.md, docs/fields.txt and docs/columns.txt.
 
-Fields and columns as the commands print them. Between `<!-- table: NAME -->` and `<!-- end -->`: verdicts and reasons
-from the lists that name them in the sources. Section 3 must say what each column means, docs/verify.md what each cause
+Fields and columns as the commands print them; what rows.c says of its columns. Between `<!-- table: NAME -->` and `<!-- end -->`: verdicts and reasons
+from the lists that name them in the sources. Section 3 must say what each other column means, docs/verify.md what each cause
 of verify is, and neither of others.
 --check: nothing is written; exit 1 if a table is not what it should be, or a column has no meaning."""
-import pathlib, re, subprocess, sys, tempfile, textwrap
+import csv, pathlib, re, subprocess, sys, tempfile, textwrap
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 CHAIN, CASE2 = "cases/structures/chain3.yaml", "cases/paper/case2.yaml"
@@ -27,6 +27,7 @@ COMMANDS = {  # what is run for the columns of each command: one degree of freed
     "stress": ["stress", "--scenes", "1"],
     "describe": ["describe"],
     "describe --case": ["describe", "--case", CASE2],
+    "describe --columns": ["describe", "--columns"],
 }
 LISTS = {"verdicts": ("compare/comparison.h", "VERDICT_LIST"), "reasons": ("proof/prove/prove.h", "PROOF_REASONS")}
 CAUSES = ("compare/verify/equations/causes.h", "VERIFY_CAUSE_LIST")
@@ -41,6 +42,9 @@ def run(*arguments):
 def headers(arguments):
     lines = [line for line in run(*arguments, "--format", "csv", "--quiet").split("\n") if not line.startswith("#")]
     return [line.split(",") for before, line in zip([""] + lines, lines) if line and not before]
+
+
+def said(row): return f"{row['column']}{' [' + row['unit'] + ']' if row['unit'] else ''}: {row['meaning']}"
 
 
 def fill(text, first, rest): return "\n".join(textwrap.wrap(text, 116, initial_indent=first, subsequent_indent=rest))
@@ -60,6 +64,9 @@ def main(check):
               for name, where in LISTS.items()}
     printed = "\n".join(fill("; then ".join(" ".join(table) for table in found), f"{name}: ", "  ")
                         for name, found in columns.items()) + "\n"
+    rows = list(csv.DictReader(run("describe", "--columns", "--format", "csv").split("\n")))
+    for name in dict.fromkeys(row["table"] for row in rows):
+        printed += f"\n{name}\n" + "".join(f"{fill(said(row), '  ', '      ')}\n" for row in rows if row["table"] == name)
     page = old = (ROOT / "docs/interface.md").read_text()
     for name, table in tables.items():
         place = f"(<!-- table: {name} -->\n).*?(<!-- end -->)"
@@ -68,14 +75,15 @@ def main(check):
     meant = " ".join(re.findall(r"^- (.*?):(?: |\n)", meant, re.M | re.S))
     meant = set(meant.replace("`", "").replace(",", " ").split())
     all_columns = {column for found in columns.values() for table in found for column in table}
-    wrong = [f"column {name} has no meaning" for name in sorted(all_columns - meant)]
+    known = {row["column"] for row in rows}
+    wrong = [f"column {name} has no meaning" for name in sorted(all_columns - meant - known)]
     wrong += [f"{name} is no column" for name in sorted(meant - all_columns)]
     tried = re.search(r"<!-- causes -->(.*?)<!-- end -->", (ROOT / "docs/verify.md").read_text(), re.S)[1]
     tried = set(re.findall(r"`(\w+)`", " ".join(re.findall(r"^\|(.*?)\|", tried, re.M))))
     wrong += [f"docs/verify.md: cause {name}" for name in sorted(tried ^ {row[0] for row in of_list(*CAUSES)})]
     txt = {"docs/fields.txt": run("describe"), "docs/columns.txt": printed}
-    known = [(path, text, (ROOT / path).read_text() if (ROOT / path).exists() else "") for path, text in txt.items()]
-    for path, text, was in [("docs/interface.md", page, old), *known]:
+    texts = [(path, text, (ROOT / path).read_text() if (ROOT / path).exists() else "") for path, text in txt.items()]
+    for path, text, was in [("docs/interface.md", page, old), *texts]:
         if text != was and check: wrong.append(f"{path} is not what the program says: run docs/interface.py HBMCHECK")
         if text != was and not check: (ROOT / path).write_text(text)
     print("\n".join(wrong))

@@ -20,10 +20,11 @@ static const double first_report = 20; /* [s] after the start; each later one wh
 enum { REPORT_COLUMNS = 100 };
 
 struct progress {
-  char *label;         /* one line, valid UTF-8; NULL: say nothing */
-  bool line;           /* drawn on a terminal; else reported */
-  double start, drawn; /* [s] on the monotonic clock */
-  double report;       /* [s] after the start, when the next report is due */
+  char *label;          /* one line, valid UTF-8; NULL: say nothing */
+  bool line;            /* drawn on a terminal; else reported */
+  double start, drawn;  /* [s] on the monotonic clock */
+  double report;        /* [s] after the start, when the next report is due */
+  const hc_monitor *to; /* who hears the ticks; NULL: the terminal */
 };
 
 static const struct timespec grace = {.tv_nsec = 700000000}; /* for the work to end by itself */
@@ -178,11 +179,14 @@ progress *progress_start(const char *label, bool quiet)
 static bool tick_progress(void *self, double done)
 {
   progress *p = self;
+  if (p && p->to) return hc_monitor_tick(p->to, done);
   if (stop_signal) return false;
   if (p && p->line && wall_seconds() - p->drawn >= interval) draw_line(p, done);
   else if (p && p->label && !p->line) report(p, done);
   return true;
 }
+
+void progress_pass_on(progress *p, const hc_monitor *to) { p->to = to; }
 
 hc_monitor progress_monitor(progress *p) { return (hc_monitor){tick_progress, p}; }
 

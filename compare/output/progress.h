@@ -1,5 +1,5 @@
 /* progress.h - a line on the terminal during long work, and signals that stop it: SIGINT, SIGTERM and SIGHUP. For the
- * command line only: the library handles no signals and prints nothing.
+ * command line only: in the library ticks are passed on (progress_pass_on), and nothing is printed.
  *
  *     a signal -> ticks answer false, the work ends by itself and says what it has found
  *              -> 0.7 s later, where no tick came (reading a pipe, inside one long evaluation, waiting for gnuplot):
@@ -40,6 +40,9 @@ int progress_interrupted(void);
  * 40 s left" of its own. Never fails: NULL (no memory) draws nothing, and its ticks still answer false after a
  * signal. */
 progress *progress_start(const char *label, bool quiet);
+
+/* From now on ticks are *to's alone, and signals nothing; *to must live as long. */
+void progress_pass_on(progress *p, const hc_monitor *to);
 
 /* For long work; one thread at a time may tick. done is 0..1, or negative: unknown, the time is shown. */
 hc_monitor progress_monitor(progress *p);

@@ -1,5 +1,6 @@
-/* rows.h - the columns of results, a table a kind, for all that shows or keeps them. Names: docs/interface.md, 3. A new
- * column is a new line in rows.c and nothing else. How they are written: compare/output/table.h. */
+/* rows.h - the columns of results, a table a kind, for all that shows, keeps or hands them over: csv, json, the aligned
+ * table, C, Python, report, studies. A new column is a new line in rows.c and nothing else: its name, unit, meaning and
+ * value. How they are written: compare/output/table.h. */
 #pragma once
 
 #include "compare/accuracy/accuracy.h"
@@ -14,18 +15,26 @@ typedef enum {
   ROWS_TRANSIENT,       /* of steady_row        */
   ROWS_COMPARE,         /* of comparison_row    */
   ROWS_CURVE,           /* of response_summary  */
+  ROWS_SPECIALS,        /* of hbm_special       */
   ROWS_ACCURACY,        /* of accuracy_row      */
   ROWS_ORDER,           /* of order_row         */
   ROWS_CONTACT,         /* of contact_row       */
   ROWS_STEADY_CONTACT,  /* of steady_contact    */
   ROWS_COMPARE_CONTACT, /* of contact_comparison */
-  ROWS_PROVE            /* of proof_row          */
+  ROWS_PROVE,           /* of proof_row          */
+  ROWS_KINDS
 } rows_kind;
 
-/* Columns of some cases: frequencies in cycles beside the omegas; the name of response or contact. */
-enum { ROWS_IN_CYCLES = 1, ROWS_RESPONSES = 2 };
+/* Columns of some tables: frequencies in cycles beside the omegas; the name of response or contact; what is for
+ * programs alone, series of numbers among it. */
+enum { ROWS_IN_CYCLES = 1, ROWS_RESPONSES = 2, ROWS_IN_MEMORY = 4 };
 
-enum { ROWS_MOST = 48, ROWS_TEXT = 64 }; /* columns of a kind, asserted; bytes of a text, the end included */
+enum { ROWS_MOST = 64, ROWS_TEXT = 128 }; /* columns of a kind, asserted; bytes of a text, the end included */
+
+typedef struct row_series {
+  int n;
+  const double *v; /* the row's */
+} row_series;
 
 typedef struct row_cell {
   table_kind kind;
@@ -34,17 +43,21 @@ typedef struct row_cell {
     char text[ROWS_TEXT];
     long integer;
     double real;
+    row_series series;
   } as;
 } row_cell;
 
-/* The columns of a kind, *n of them; constant. extra: a sum of ROWS_IN_CYCLES and ROWS_RESPONSES. */
-const table_column *rows_columns(rows_kind kind, unsigned extra, int *n);
+/* The columns of a kind; how many. extra: a sum of ROWS_IN_CYCLES, ROWS_RESPONSES and ROWS_IN_MEMORY. */
+int rows_columns(rows_kind kind, unsigned extra, table_column columns[ROWS_MOST]);
+
+/* "frf", "steady_contact": what describe and docs/columns.txt call that kind. */
+const char *rows_name(rows_kind kind);
 
 /* For table_spare: which of them a narrow screen does without, the first ones first. */
 const char *const *rows_spare(rows_kind kind, bool in_cycles);
 
-/* One row: cells[n] in the columns' order. A real that is no number is not there. Cannot fail. */
-void rows_cells(rows_kind kind, const void *row, unsigned extra, row_cell *cells);
+/* One row in the columns' order; how many. A real that is no number is not there. Cannot fail. */
+int rows_cells(rows_kind kind, const void *row, unsigned extra, row_cell *cells);
 
 /* "turning point", "contact goes from slip to separation": what happens there. Returns text. */
 enum { ROWS_SPECIAL = 96 };

@@ -33,7 +33,7 @@ static bool columns_are_sound(int n, const table_column *columns)
   if (n < 1 || !columns) return false;
   for (int i = 0; i < n; ++i) {
     table_kind kind = columns[i].kind;
-    if (kind != TABLE_TEXT && kind != TABLE_INTEGER && kind != TABLE_REAL) return false;
+    if (kind != TABLE_TEXT && kind != TABLE_INTEGER && kind != TABLE_REAL && kind != TABLE_SERIES) return false;
     for (int j = 0; j < i; ++j)
       if (!strcmp(columns[i].name, columns[j].name)) return false;
   }
@@ -50,6 +50,7 @@ table *table_new(const char *title, int n_columns, const table_column *columns)
 {
   table *t = calloc(1, sizeof *t);
   if (!t) return NULL;
+  t->holders = 1;
   t->title = utf8_clean(title ? title : "", true);
   if (!t->title) give_up(t, HC_NO_MEMORY);
   if (!columns_are_sound(n_columns, columns)) {
@@ -58,17 +59,32 @@ table *table_new(const char *title, int n_columns, const table_column *columns)
   }
   t->columns = malloc((size_t)n_columns * sizeof *columns);
   t->hidden = calloc((size_t)n_columns, sizeof *t->hidden);
-  if (t->columns) memcpy(t->columns, columns, (size_t)n_columns * sizeof *columns), t->n_columns = n_columns;
-  if (!t->columns || !t->hidden) give_up(t, HC_NO_MEMORY);
+  bool named = t->columns != NULL;
+  for (; named && t->n_columns < n_columns; t->n_columns += named) {
+    table_column *c = &t->columns[t->n_columns];
+    *c = columns[t->n_columns];
+    named = (c->name = strdup(c->name)) != NULL;
+  }
+  if (!named || !t->hidden) give_up(t, HC_NO_MEMORY);
+  return t;
+}
+
+table *table_keep(table *t)
+{
+  if (t) ++t->holders;
   return t;
 }
 
 void table_free(table *t)
 {
-  if (!t) return;
-  for (size_t i = 0; i < t->n_cells; ++i)
-    if (t->columns[i % (size_t)t->n_columns].kind == TABLE_TEXT) free(t->cells[i].as.text);
+  if (!t || --t->holders > 0) return;
+  for (size_t i = 0; i < t->n_cells; ++i) {
+    const table_kind kind = t->columns[i % (size_t)t->n_columns].kind;
+    if (kind == TABLE_TEXT) free(t->cells[i].as.text);
+    if (kind == TABLE_SERIES) free(t->cells[i].as.series);
+  }
   for (size_t i = 0; i < t->n_notes; ++i) free(t->notes[i]);
+  for (int j = 0; j < t->n_columns; ++j) free((char *)t->columns[j].name);
   free(t->cells);
   free(t->notes);
   free(t->title);
@@ -122,6 +138,17 @@ void table_put_real(table *t, double value)
 {
   table_cell *cell = next_cell_of(t, TABLE_REAL);
   if (cell && !isnan(value)) *cell = (table_cell){.there = true, .as.real = value};
+}
+
+void table_put_series(table *t, int n, const double *values)
+{
+  table_cell *cell = next_cell_of(t, TABLE_SERIES);
+  double *series = cell ? malloc(((size_t)n + 1) * sizeof *series) : NULL;
+  if (cell && !series) give_up(t, HC_NO_MEMORY);
+  if (!series) return;
+  series[0] = n;
+  memcpy(series + 1, values, (size_t)n * sizeof *series);
+  *cell = (table_cell){.there = true, .as.series = series};
 }
 
 void table_put_missing(table *t) { next_cell(t); }
@@ -206,6 +233,43 @@ void table_show_all(table *t)
 
 int table_rows(const table *t) { return table_row_count(t); }
 
+const char *table_title(const table *t) { return t->title; }
+
+const table_column *table_column_at(const table *t, int j)
+{
+  return j >= 0 && j < t->n_columns ? &t->columns[j] : NULL;
+}
+
+/* That cell, NULL where it is not there, or of another kind. */
+static const table_cell *cell_of_kind(const table *t, int row, int column, table_kind kind)
+{
+  if (row < 0 || row >= table_row_count(t) || column < 0 || column >= t->n_columns) return NULL;
+  const table_cell *cell = table_at(t, row, column);
+  return cell->there && t->columns[column].kind == kind ? cell : NULL;
+}
+
+const char *table_text_at(const table *t, int row, int column)
+{
+  const table_cell *cell = cell_of_kind(t, row, column, TABLE_TEXT);
+  return cell ? cell->as.text : NULL;
+}
+
+double table_number_at(const table *t, int row, int column)
+{
+  const table_cell *real = cell_of_kind(t, row, column, TABLE_REAL);
+  const table_cell *integer = cell_of_kind(t, row, column, TABLE_INTEGER);
+  return real ? real->as.real : integer ? (double)integer->as.integer : NAN;
+}
+
+int table_series_at(const table *t, int row, int column, const double **values)
+{
+  const table_cell *cell = cell_of_kind(t, row, column, TABLE_SERIES);
+  *values = cell ? cell->as.series + 1 : NULL;
+  return cell ? (int)cell->as.series[0] : 0;
+}
+
+const char *table_note_at(const table *t, int i) { return i >= 0 && (size_t)i < t->n_notes ? t->notes[i] : NULL; }
+
 void table_write_csv_text(const char *s, FILE *to)
 {
   bool plain = *s && !strpbrk(s, ",\"\r\n") && !strchr("# \t", *s) && !strchr(" \t", s[strlen(s) - 1]);
@@ -232,6 +296,7 @@ static void write_csv_cell(const table *t, int row, int column, FILE *to)
   case TABLE_TEXT: table_write_csv_text(cell->as.text, to); break;
   case TABLE_INTEGER: fprintf(to, "%ld", cell->as.integer); break;
   case TABLE_REAL: fprintf(to, "%.17g", cell->as.real); break; /* inf and -inf, too */
+  case TABLE_SERIES: break;                                    /* for programs: rows.h */
   }
 }
 
@@ -261,8 +326,7 @@ static void write_csv_begun(const table *t, FILE *to, const table_begun *begun)
   }
 }
 
-/* HC_OK where all its rows are full and nothing went wrong before. */
-static hc_status ready(const table *t)
+hc_status table_status(const table *t)
 {
   if (!t) return HC_NO_MEMORY;
   if (t->status != HC_OK) return t->status;
@@ -277,7 +341,7 @@ hc_status table_write(int n, table *const *tables, table_format format, FILE *to
 hc_status table_write_begun(const table *t, table_format format, FILE *to, table_begun *begun)
 {
   locale_t c, before;
-  hc_status st = ready(t);
+  hc_status st = table_status(t);
   if (st != HC_OK || format == FORMAT_TABLE || table_rows(t) <= begun->rows) return st;
   if (!enter_c_locale(&c, &before)) return HC_NO_MEMORY;
   if (format == FORMAT_JSON) st = table_write_json_begun(t, to, begun);
@@ -291,7 +355,7 @@ hc_status table_write_begun(const table *t, table_format format, FILE *to, table
 hc_status table_write_rest(int n, table *const *tables, table_format format, FILE *to, const table_begun *begun)
 {
   hc_status st = HC_OK;
-  for (int k = 0; k < n && st == HC_OK; ++k) st = ready(tables[k]);
+  for (int k = 0; k < n && st == HC_OK; ++k) st = table_status(tables[k]);
   if (st != HC_OK) return st;
   locale_t c, before;
   if (!enter_c_locale(&c, &before)) return HC_NO_MEMORY;

@@ -9,10 +9,11 @@
 
 #include "numerics/base/status.h"
 
-typedef enum { TABLE_TEXT, TABLE_INTEGER, TABLE_REAL } table_kind;
+typedef enum { TABLE_TEXT, TABLE_INTEGER, TABLE_REAL, TABLE_SERIES } table_kind;
 typedef struct {
   const char *name;
-  table_kind kind;
+  table_kind kind;            /* TABLE_SERIES: numbers, for programs: no writer has the column */
+  const char *unit, *meaning; /* "length", "1"; what it is: constant strings, or NULL */
 } table_column;
 #define TEXT(name)                                                                                                     \
   {                                                                                                                    \
@@ -30,7 +31,10 @@ typedef enum { FORMAT_TABLE, FORMAT_CSV, FORMAT_JSON } table_format;
 
 typedef struct table table;
 
-/* The columns are copied, not their names, which differ from each other. The title is copied and may be NULL.
+/* A table is its holders': table_new's and each table_keep's; the last table_free frees it. NULL stays NULL. */
+table *table_keep(table *t);
+
+/* The columns and their names, which differ from each other, are copied, and so is the title, which may be NULL.
  * Appending after a failed allocation, or to NULL, does nothing; table_write reports HC_NO_MEMORY then. So it is with
  * HC_BUG after a mistake of the caller's: no columns, two of one name, a value that is not of its column's kind. */
 table *table_new(const char *title, int n_columns, const table_column *columns);
@@ -41,6 +45,7 @@ void table_free(table *t);
 void table_put_text(table *t, const char *value);
 void table_put_integer(table *t, long value);
 void table_put_real(table *t, double value);
+void table_put_series(table *t, int n, const double *values);
 void table_put_missing(table *t);
 
 /* A row's values: CELL(x) of text, integer or real; CELL_IF(there, x), else missing; CELL_OF(has, x): if it has it. */
@@ -101,6 +106,17 @@ void table_show_all(table *t);
 
 /* Full rows so far. */
 int table_rows(const table *t);
+
+/* What is in it, for programs. Column j and remark i: NULL past the last. Of a cell that is not there, or of another
+ * kind: NULL, NaN, 0 numbers and NULL. */
+const char *table_title(const table *t);
+const table_column *table_column_at(const table *t, int j);
+const char *table_text_at(const table *t, int row, int column);
+double table_number_at(const table *t, int row, int column);
+int table_series_at(const table *t, int row, int column, const double **values);
+const char *table_note_at(const table *t, int i);
+/* HC_OK where all its rows are full and nothing went wrong before. HC_NO_MEMORY, HC_BUG. */
+hc_status table_status(const table *t);
 
 /* All tables of one command.
  * table: one after another, each under its title; 7 significant digits, a column in one notation with its decimal

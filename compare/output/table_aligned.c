@@ -82,6 +82,7 @@ static char *cell_text(const table *t, int row, int column, const column_style *
   switch (t->columns[column].kind) {
   case TABLE_TEXT: return utf8_clean(cell->as.text, true);
   case TABLE_INTEGER: snprintf(number, sizeof number, "%ld", cell->as.integer); break;
+  case TABLE_SERIES: break;
   case TABLE_REAL:
     if (cell->as.real == 0) return strdup("0");
     snprintf(number, sizeof number, style->scientific ? "%.*e" : "%.*f", style->decimals, cell->as.real);

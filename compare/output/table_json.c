@@ -13,6 +13,7 @@ static json_t *cell_value(const table *t, int row, int column)
   case TABLE_TEXT: return json_string(cell->as.text);
   case TABLE_INTEGER: return json_integer(cell->as.integer);
   case TABLE_REAL: return isfinite(cell->as.real) ? json_real(cell->as.real) : json_null();
+  case TABLE_SERIES: break; /* for programs: rows.h */
   }
   return json_null();
 }

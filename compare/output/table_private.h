@@ -9,10 +9,12 @@ typedef struct table_cell {
     char *text;
     long integer;
     double real;
-  } as; /* by the column's kind; text is owned, valid UTF-8 */
+    double *series; /* owned: how many, then the numbers */
+  } as;             /* by the column's kind; text is owned, valid UTF-8 */
 } table_cell;
 
 struct table {
+  int holders;
   char *title;           /* one line, "" for none */
   int n_columns;         /* 0: the columns given were wrong, and status is not HC_OK */
   table_column *columns; /* [n_columns] */

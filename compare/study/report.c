@@ -72,8 +72,8 @@ hc_status study_verdicts(const study *s, study_store *store, table *t)
 static bool is_scene_column(const char *name, unsigned extra)
 {
   static const char *const own[] = {"scene", "status", "reason", "seconds"};
-  int n;
-  const table_column *curve = rows_columns(ROWS_CURVE, extra, &n);
+  table_column curve[ROWS_MOST];
+  const int n = rows_columns(ROWS_CURVE, extra, curve);
   for (size_t i = 0; i < sizeof own / sizeof *own; ++i)
     if (!strcmp(own[i], name)) return true;
   for (int i = 0; i < n; ++i)
@@ -83,8 +83,8 @@ static bool is_scene_column(const char *name, unsigned extra)
 
 static void select_columns(rows_kind kind, unsigned extra, char table_letter, FILE *to)
 {
-  int n;
-  const table_column *columns = rows_columns(kind, extra, &n);
+  table_column columns[ROWS_MOST];
+  const int n = rows_columns(kind, extra, columns);
   for (int i = 0; i < n; ++i)
     fprintf(to, ", %c.\"%s\" AS \"%s%s\"", table_letter, columns[i].name,
             table_letter == 'r' && is_scene_column(columns[i].name, extra) ? "row_" : "", columns[i].name);

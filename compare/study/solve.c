@@ -35,7 +35,8 @@ static void fail_with(study_result *r, const char *what, hc_status st, double om
 
 static hc_status make_rows(study_result *r, rows_kind kind, int n)
 {
-  rows_columns(kind, r->extra, &r->n_columns);
+  table_column columns[ROWS_MOST];
+  r->n_columns = rows_columns(kind, r->extra, columns);
   r->rows = calloc((size_t)n * (size_t)r->n_columns + 1, sizeof *r->rows);
   return r->rows ? HC_OK : HC_NO_MEMORY;
 }
@@ -166,7 +167,8 @@ hc_status study_solve(const study *s, long id, const hc_monitor *monitor, study_
   case_error err = {{0}};
   double start = thread_seconds();
   *out = (study_result){.id = id, .extra = study_extra_columns(s)};
-  rows_columns(study_rows(s), out->extra, &out->n_columns);
+  table_column columns[ROWS_MOST];
+  out->n_columns = rows_columns(study_rows(s), out->extra, columns);
   hc_status st = study_scene(s, id, &sc, &err);
   if (st != HC_OK) {
     out->failed = true;

@@ -32,8 +32,8 @@ static const char *type_of_field(const field *f)
 
 static void write_columns(rows_kind kind, unsigned extra, FILE *to)
 {
-  int n;
-  const table_column *columns = rows_columns(kind, extra, &n);
+  table_column columns[ROWS_MOST];
+  const int n = rows_columns(kind, extra, columns);
   for (int i = 0; i < n; ++i)
     fprintf(to, ", \"%s\" %s", columns[i].name,
             (columns[i].kind == TABLE_REAL      ? "REAL"
@@ -82,9 +82,10 @@ _Static_assert(2 * (STUDY_MOST_FIELDS + ROWS_MOST) + 64 < 4096, "prepare_insert'
 
 static bool prepare_inserts(study_store *st)
 {
-  int n_curve, n_row, n_varied = 0;
-  rows_columns(ROWS_CURVE, study_extra_columns(st->s), &n_curve);
-  rows_columns(study_rows(st->s), study_extra_columns(st->s), &n_row);
+  table_column columns[ROWS_MOST];
+  const int n_curve = rows_columns(ROWS_CURVE, study_extra_columns(st->s), columns);
+  const int n_row = rows_columns(study_rows(st->s), study_extra_columns(st->s), columns);
+  int n_varied = 0;
   for (int a = 0; a < st->s->n_axes; ++a) n_varied += st->s->axes[a].n_fields;
   st->put_scene = prepare_insert(st->db, "scene", 1 + n_varied + 3 + n_curve);
   st->put_row = prepare_insert(st->db, "row", 2 + n_row);
@@ -123,8 +124,9 @@ static bool insert_scene(study_store *st, const study_result *r)
 {
   const study *s = st->s;
   sqlite3_stmt *q = st->put_scene;
-  int i = 0, n_curve;
-  rows_columns(ROWS_CURVE, study_extra_columns(s), &n_curve);
+  table_column columns[ROWS_MOST];
+  const int n_curve = rows_columns(ROWS_CURVE, study_extra_columns(s), columns);
+  int i = 0;
   sqlite3_bind_int64(q, ++i, r->id);
   for (int a = 0; a < s->n_axes; ++a)
     for (int k = 0; k < s->axes[a].n_fields; ++k) {

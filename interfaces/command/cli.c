@@ -2,19 +2,17 @@
 #include "interfaces/command/cli.h"
 
 #include <errno.h>
-#include <fftw3.h>
 #include <float.h>
-#include <gsl/gsl_version.h>
-#include <sundials/sundials_version.h>
 #include <sys/stat.h>
 #include <unistd.h>
-#include <yaml.h>
 
 #include "compare/advice.h"
 #include "compare/no_steady_state.h"
 #include "compare/output/output.h"
 #include "compare/output/progress.h"
 #include "compare/output/same_file.h"
+#include "interfaces/command/call.h"
+#include "model/casefile/structure.h"
 #include "numerics/base/constants.h"
 #include "numerics/base/nearest.h"
 
@@ -30,71 +28,84 @@ static const struct argp_option common_options[] = {
     {0},
 };
 
-/* ---- values of options: what cannot be read ends the program with a message (exit 64) ---- */
+/* ---- values of options ---- */
+
+#define REFUSE(...) return snprintf(why, CASE_MESSAGE, __VA_ARGS__), false
 
 /* A number that stands there twice is taken once, and said. */
-static void read_list(struct argp_state *state, const char *option, const char *text, number_list *out)
+static bool read_list(const cli_common *common, const char *option, const char *text, number_list *out, char *why)
 {
-  if (out->n > 0) argp_error(state, "--%s is given twice, expected one list like 5,7,9", option);
+  if (out->n > 0) REFUSE("--%s is given twice, expected one list like 5,7,9", option);
   for (const char *at = text;;) {
     size_t length = strcspn(at, ",");
     int same = 0;
-    if (out->n == NUMBER_LIST_MAX) argp_error(state, "--%s takes at most %d numbers", option, NUMBER_LIST_MAX);
+    if (out->n == NUMBER_LIST_MAX) REFUSE("--%s takes at most %d numbers", option, NUMBER_LIST_MAX);
     if (number_read(at, length, &out->v[out->n]) != NUMBER_FINE || !(out->v[out->n] > 0))
-      argp_error(state, "--%s: '%.*s' is not a positive number; expected a list like 5,7,9", option, (int)length, at);
+      REFUSE("--%s: '%.*s' is not a positive number; expected a list like 5,7,9", option, (int)length, at);
     while (out->v[same] != out->v[out->n]) ++same;
     if (same == out->n) ++out->n;
-    else fprintf(state->err_stream, "%s: --%s: %g stands there twice, taken once\n", state->name, option, out->v[same]);
-    if (!at[length]) return;
+    else cli_message(common, "--%s: %g stands there twice, taken once", option, out->v[same]);
+    if (!at[length]) return true;
     at += length + 1;
   }
 }
 
-static int read_integer(struct argp_state *state, const cli_option *o, const char *text)
+static bool read_integer(const cli_option *o, const char *text, int *value, char *why)
 {
-  int value;
-  if (number_read_integer(text, strlen(text), &value) != NUMBER_FINE || value < o->low || value > o->high)
-    argp_error(state, "--%s: '%s' is not an integer %d..%d", o->name, text, o->low, o->high);
-  return value;
+  if (number_read_integer(text, strlen(text), value) != NUMBER_FINE || *value < o->low || *value > o->high)
+    REFUSE("--%s: '%s' is not an integer %d..%d", o->name, text, o->low, o->high);
+  return true;
 }
 
-static void read_format(struct argp_state *state, const char *option, const char *text, bool table_too,
-                        table_format *out)
+static bool read_format(const char *option, const char *text, bool table_too, table_format *out, char *why)
 {
   static const char *const formats[] = {"table", "csv", "json", NULL};
   if (table_too && !strcmp(text, "table")) *out = FORMAT_TABLE;
   else if (!strcmp(text, "csv")) *out = FORMAT_CSV;
   else if (!strcmp(text, "json")) *out = FORMAT_JSON;
   else
-    argp_error(state, "--%s: '%s' is unknown; expected %scsv or json%s", option, text, table_too ? "table, " : "",
-               nearest_hint(formats + !table_too, text, (char[NEAREST_HINT]){0}));
+    REFUSE("--%s: '%s' is unknown; expected %scsv or json%s", option, text, table_too ? "table, " : "",
+           nearest_hint(formats + !table_too, text, (char[NEAREST_HINT]){0}));
+  return true;
 }
 
-static void read_value(struct argp_state *state, const cli_option *o, char *text, void *to)
+/* What an option fills. */
+static void *value_of(cli_common *common, const cli_option *o)
 {
+  return o->kind == CLI_PLOT ? (void *)&common->drawing.path : (char *)common->own + o->at;
+}
+
+bool cli_read_value(cli_common *common, const cli_option *o, const char *text, char why[CASE_MESSAGE])
+{
+  void *to = value_of(common, o);
+  int count;
   switch (o->kind) {
   case CLI_FLAG: *(bool *)to = true; break;
   case CLI_PLOT:
     if (!plot_can(text))
-      argp_error(state, "--plot: '%s' has an unknown ending; expected a name ending in " PLOT_ENDINGS ", or -", text);
+      REFUSE("--plot: '%s' has an unknown ending; expected a name ending in " PLOT_ENDINGS ", or -", text);
     *(const char **)to = text;
     break;
   case CLI_TEXT: *(const char **)to = text; break;
   case CLI_TEXTS: {
     cli_texts *list = to;
-    if (list->n == CLI_MOST_TEXTS) argp_error(state, "more than %d --%s", CLI_MOST_TEXTS, o->name);
+    if (list->n == CLI_MOST_TEXTS) REFUSE("more than %d --%s", CLI_MOST_TEXTS, o->name);
     list->text[list->n++] = text;
     break;
   }
-  case CLI_LIST: read_list(state, o->name, text, to); break;
-  case CLI_INTEGER: *(int *)to = read_integer(state, o, text); break;
-  case CLI_COUNT: *(long *)to = read_integer(state, o, text); break;
+  case CLI_LIST: return read_list(common, o->name, text, to, why);
+  case CLI_INTEGER: return read_integer(o, text, to, why);
+  case CLI_COUNT:
+    if (!read_integer(o, text, &count, why)) return false;
+    *(long *)to = count;
+    break;
   case CLI_POSITIVE:
     if (number_read(text, strlen(text), (double *)to) != NUMBER_FINE || !(*(double *)to > 0))
-      argp_error(state, "--%s: '%s' is not a number > 0", o->name, text);
+      REFUSE("--%s: '%s' is not a number > 0", o->name, text);
     break;
-  case CLI_FORMAT: read_format(state, o->name, text, false, to); break;
+  case CLI_FORMAT: return read_format(o->name, text, false, to, why);
   }
+  return true;
 }
 
 /* ---- the arguments of a command ---- */
@@ -105,12 +116,6 @@ typedef struct parse_input {
   int max_arguments;
 } parse_input;
 
-/* What an option fills. */
-static void *value_of(cli_common *common, const cli_option *o)
-{
-  return o->kind == CLI_PLOT ? (void *)&common->drawing.path : (char *)common->own + o->at;
-}
-
 /* The first key of a command's own options, which come in the order of their table. */
 enum { OWN_KEY = 0x200 };
 static int own_key(const cli_option *o, int i) { return o->letter ? o->letter : OWN_KEY + i; }
@@ -120,8 +125,9 @@ static error_t read_own_option(int key, char *text, struct argp_state *state)
   const parse_input *input = state->input;
   const cli_option *o = input->common->command->options;
   for (int i = 0; o && o->name && key != own_key(o, i); ++i) ++o;
+  char why[CASE_MESSAGE];
   if (!o || !o->name) return ARGP_ERR_UNKNOWN;
-  read_value(state, o, text, value_of(input->common, o));
+  if (!cli_read_value(input->common, o, text, why)) argp_error(state, "%s", why);
   return 0;
 }
 
@@ -129,6 +135,7 @@ static error_t read_common_option(int key, char *text, struct argp_state *state)
 {
   parse_input *input = state->input;
   cli_common *common = input->common;
+  char why[CASE_MESSAGE];
   switch (key) {
   case ARGP_KEY_INIT: state->child_inputs[0] = input; return 0;
   case ARGP_KEY_ARG:
@@ -139,7 +146,9 @@ static error_t read_common_option(int key, char *text, struct argp_state *state)
     if (common->n_set == CLI_MAX_SET) argp_error(state, "--set may be given at most %d times", CLI_MAX_SET);
     common->set[common->n_set++] = text;
     return 0;
-  case KEY_FORMAT: read_format(state, "format", text, true, &common->format); return 0;
+  case KEY_FORMAT:
+    if (!read_format("format", text, true, &common->format, why)) argp_error(state, "%s", why);
+    return 0;
   case 'o': common->output = text; return 0;
   case KEY_WIDE: common->wide = true; return 0;
   case 'q': common->quiet = true; return 0;
@@ -226,24 +235,39 @@ static void parse(const cli_command *self, int argc, char **argv, cli_common *co
   exit(EXIT_USAGE);
 }
 
+void *cli_own_options(const cli_command *self)
+{
+  void *own = calloc(1, self->own_size + 1);
+  if (own && self->defaults) memcpy(own, self->defaults, self->own_size);
+  return own;
+}
+
+int cli_run_parsed(cli_common *common)
+{
+  const cli_command *self = common->command;
+  scene sc = {.structure = NULL};
+  int code = self->starts_itself ? 0 : cli_check_files(common, 0, NULL);
+  if (!code && !self->starts_itself && !strcmp(self->arguments, "CASE"))
+    code = cli_load_case(common, common->arguments[0], &sc, &(case_error){{0}});
+  if (!code) code = self->run(common, common->own, &sc);
+  case_clear(&sc);
+  return code;
+}
+
 int cli_run(const cli_command *self, int argc, char **argv)
 {
   cli_common common = {.command = self};
   if (!strncmp(self->arguments, "CASE", 4)) common.argument_is = "the case file";
   if (!strncmp(self->arguments, "STUDY", 5)) common.argument_is = "the study";
-  scene sc = {.structure = NULL};
-  common.own = calloc(1, self->own_size + 1);
+  common.own = cli_own_options(self);
   if (!common.own) return cli_failed(&common, EXIT_NO_SOLUTION, "%s", hc_status_text(HC_NO_MEMORY));
-  if (self->defaults) memcpy(common.own, self->defaults, self->own_size);
   parse(self, argc, argv, &common);
-  int code = self->starts_itself ? 0 : cli_check_files(&common, 0, NULL);
-  if (!code && !self->starts_itself && !strcmp(self->arguments, "CASE"))
-    code = cli_load_case(&common, common.arguments[0], &sc, &(case_error){{0}});
-  if (!code) code = self->run(&common, common.own, &sc);
-  case_clear(&sc);
+  const int code = cli_run_parsed(&common);
   free(common.own);
   return code;
 }
+
+int cli_jobs(const cli_common *common) { return common->call ? 1 : cli_processors(); } /* its monitor is one thread's */
 
 int cli_processors(void)
 {
@@ -298,7 +322,8 @@ int cli_check_files(cli_common *common, int n, const cli_file *files)
   int found = 0, code = 0;
   named_file *list = calloc((size_t)common->n_arguments + 1 + (size_t)n + CLI_MOST_OPTIONS, sizeof *list);
   bool whole = list != NULL;
-  if (whole) list[found++].as = (cli_file){"--output", common->output, CLI_OUTPUT};
+  const bool prints = common->output || !common->call;
+  if (whole && prints) list[found++].as = (cli_file){"--output", common->output, CLI_OUTPUT};
   for (int i = 0; i < common->n_arguments && common->argument_is && whole; ++i)
     list[found++].as = (cli_file){common->argument_is, common->arguments[i], CLI_INPUT};
   for (int i = 0; i < n && whole; ++i)
@@ -312,7 +337,7 @@ int cli_check_files(cli_common *common, int n, const cli_file *files)
     if (f->path && !strcmp(f->path, "-") && f->use != CLI_RESULTS) f->path = NULL;
     whole = file_identify(f->path, f->use == CLI_INPUT ? STDIN_FILENO : STDOUT_FILENO, &list[i].is);
   }
-  if (!whole) code = cli_failed(common, EXIT_NO_SOLUTION, "%s", hc_status_text(HC_NO_MEMORY));
+  if (!whole) code = cli_solver_failed(common, CLI_BOTH, "the files", HC_NO_MEMORY, 0);
   for (int i = 0; i < found && !code; ++i)
     for (int k = 0; k < i && !code; ++k) {
       if (!clash(&list[i], &list[k])) continue;
@@ -327,20 +352,53 @@ int cli_check_files(cli_common *common, int n, const cli_file *files)
 
 /* ---- messages and exit codes ---- */
 
+/* One line on standard error; a remark for who called. */
+static void say(const cli_common *common, bool with_name, const char *format, va_list args)
+{
+  if (common->call) {
+    cli_call_keep_remark(common->call, format, args);
+    return;
+  }
+  if (with_name) fprintf(stderr, "hbmcheck %s: ", common->command->name);
+  vfprintf(stderr, format, args);
+  fputc('\n', stderr);
+}
+
 void cli_message(const cli_common *common, const char *format, ...)
 {
   va_list args;
   va_start(args, format);
-  fprintf(stderr, "hbmcheck %s: ", common->command->name);
-  vfprintf(stderr, format, args);
-  fputc('\n', stderr);
+  say(common, true, format, args);
   va_end(args);
 }
+
+void cli_say(const cli_common *common, const char *format, ...)
+{
+  va_list args;
+  va_start(args, format);
+  say(common, false, format, args);
+  va_end(args);
+}
+
+void cli_ended(const cli_common *common, hc_status st)
+{
+  if (common->call && common->call->status == HC_OK) common->call->status = st;
+}
+
+progress *cli_progress(const cli_common *common, const char *label)
+{
+  progress *bar = progress_start(label, common->quiet || common->call);
+  if (common->call && bar) progress_pass_on(bar, &common->call->monitor);
+  if (!bar) cli_ended(common, HC_NO_MEMORY); /* nobody could stop it */
+  return bar;
+}
+
+bool cli_foretells(const cli_common *common) { return !common->quiet && !common->call; }
 
 void cli_foretell_memory(const cli_common *common, double bytes)
 {
   const double much = 2e8, machine = (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
-  if (common->quiet || !(bytes > much)) return;
+  if (!cli_foretells(common) || !(bytes > much)) return;
   if (bytes > machine)
     cli_message(common, "takes about %.2g GB of memory, more than the %.2g GB that this machine has", 1e-9 * bytes,
                 1e-9 * machine);
@@ -351,7 +409,7 @@ void cli_foretell_time(const cli_common *common, double seconds, int frequencies
 {
   const double long_time = 10;
   char sizes[96] = "", count[48] = "a response curve", time[PROGRESS_TIME];
-  if (common->quiet || !(seconds > long_time)) return;
+  if (!cli_foretells(common) || !(seconds > long_time)) return;
   if (m) snprintf(sizes, sizeof sizes, ", %d degrees of freedom, %d contact rows", m->n, m->n_contacts);
   if (frequencies) snprintf(count, sizeof count, "%d frequenc%s", frequencies, frequencies == 1 ? "y" : "ies");
   cli_message(common, "takes about %s of processor time: %s%s", progress_time(seconds, time), count, sizes);
@@ -362,23 +420,40 @@ int cli_plotted(const cli_common *common, hc_status st)
   return st == HC_OK ? 0 : cli_failed(common, EXIT_NO_SOLUTION, "no drawing: %s", common->drawing.why);
 }
 
-int cli_not_read(hc_status st, const case_error *err)
+int cli_not_read(const cli_common *common, hc_status st, const case_error *err)
 {
-  fprintf(stderr, "%s\n", err->message[0] ? err->message : hc_status_text(st));
+  cli_ended(common, st);
+  cli_say(common, "%s", err->message[0] ? err->message : hc_status_text(st));
   return st == HC_NO_MEMORY ? EXIT_NO_SOLUTION : EXIT_BAD_CASE;
 }
 
 void cli_say_notes(const cli_common *common, const scene *sc)
 {
-  if (sc->structure->notes && !common->quiet) fputs(sc->structure->notes, stderr);
+  const char *notes = sc->structure->notes;
+  if (notes && !common->quiet) cli_say(common, "%.*s", (int)strlen(notes) - 1, notes); /* ends with its last line */
 }
 
 int cli_load_case(cli_common *common, const char *path, scene *sc, case_error *err)
 {
   *err = (case_error){{0}};
   common->scene = sc;
-  const hc_status st = case_read(path, common->n_set, common->set, sc, err);
-  if (st != HC_OK) return cli_not_read(st, err);
+  const cli_call *call = common->call;
+  const hc_status st = call && call->text
+                           ? case_parse(path, call->text, call->length, common->n_set, common->set, sc, err)
+                           : case_read(path, common->n_set, common->set, sc, err);
+  if (st != HC_OK) return cli_not_read(common, st, err);
+  cli_say_notes(common, sc);
+  return 0;
+}
+
+int cli_load_sparse_case(cli_common *common, scene *sc)
+{
+  case_error err = {{0}};
+  if (common->call && common->call->text) return cli_load_case(common, common->arguments[0], sc, &err);
+  common->scene = sc;
+  const hc_status st =
+      case_read_sparse(common->arguments[0], common->n_set, common->set, MATRIX_MOST_DENSE, sc, NULL, &err);
+  if (st != HC_OK) return cli_not_read(common, st, &err);
   cli_say_notes(common, sc);
   return 0;
 }
@@ -541,6 +616,7 @@ int cli_solver_failed(const cli_common *common, cli_solver solver, const char *w
   char advice[ADVICE_TEXT], at[SCENE_WHERE] = "";
   if (omega > 0) scene_where(common->scene, omega, at);
   advice_for(common->scene, solver, st, advice);
+  if (st == HC_NO_MEMORY) cli_ended(common, st);
   if (st == HC_INTERRUPTED)
     cli_message(common, "%s: stopped on request%s%s; what was found is kept", what, *at ? " at " : "", at);
   else if (st == HC_NO_MEMORY) cli_message(common, "%s", hc_status_text(st));
@@ -579,6 +655,7 @@ double cli_past(const scene *sc, double omega)
 int cli_file_failed(const cli_common *common, const char *path, hc_status st)
 {
   const char *why = st == HC_IO && errno ? strerror(errno) : hc_status_text(st);
+  cli_ended(common, st);
   if (!path && st == HC_IO && errno == EPIPE) return EXIT_NO_SOLUTION; /* who reads it has seen enough: `| head` */
   return cli_failed(common, st == HC_BUG ? EXIT_BUG : EXIT_NO_SOLUTION, "%s: %s", path ? path : "standard output", why);
 }
@@ -624,28 +701,40 @@ unsigned cli_extra_columns(const scene *sc)
 static unsigned extra_of(const cli_common *common, rows_kind kind)
 {
   const bool of_curves = kind == ROWS_CURVE || kind == ROWS_ACCURACY || kind == ROWS_ORDER;
-  return of_curves ? common->scene->in_cycles : cli_extra_columns(common->scene);
+  const unsigned of_case = cli_extra_columns(common->scene);
+  return (of_curves ? of_case & ROWS_IN_CYCLES : of_case) | (common->call ? ROWS_IN_MEMORY : 0u);
+}
+
+bool cli_reads(const cli_common *common, rows_kind kind, const char *column)
+{
+  table_column columns[ROWS_MOST];
+  const int n = rows_columns(kind, extra_of(common, kind), columns);
+  const char *const *spare = rows_spare(kind, common->scene->in_cycles);
+  const bool fits = common->format == FORMAT_TABLE && !common->wide && !common->drawing.path;
+  for (; fits && *spare; ++spare)
+    if (!strcmp(*spare, column)) return false;
+  for (int i = 0; i < n; ++i)
+    if (!strcmp(columns[i].name, column)) return true;
+  return false;
 }
 
 table *cli_table(const cli_common *common, const char *title, rows_kind kind)
 {
-  int n;
-  const table_column *columns = rows_columns(kind, extra_of(common, kind), &n);
-  table *t = table_new(title, n, columns);
+  table_column columns[ROWS_MOST];
+  table *t = table_new(title, rows_columns(kind, extra_of(common, kind), columns), columns);
   table_spare(t, rows_spare(kind, common->scene->in_cycles));
   return t;
 }
 
 void cli_put_row(const cli_common *common, table *t, rows_kind kind, const void *row)
 {
-  int n;
   row_cell cells[ROWS_MOST];
-  rows_columns(kind, extra_of(common, kind), &n);
-  rows_cells(kind, row, extra_of(common, kind), cells);
+  const int n = rows_cells(kind, row, extra_of(common, kind), cells);
   for (int i = 0; i < n; ++i) {
     if (!cells[i].there) table_put_missing(t);
     else if (cells[i].kind == TABLE_TEXT) table_put_text(t, cells[i].as.text);
     else if (cells[i].kind == TABLE_INTEGER) table_put_integer(t, cells[i].as.integer);
+    else if (cells[i].kind == TABLE_SERIES) table_put_series(t, cells[i].as.series.n, cells[i].as.series.v);
     else table_put_real(t, cells[i].as.real);
   }
 }
@@ -659,7 +748,7 @@ int cli_width(const cli_common *common)
 
 bool cli_shows_rows(const cli_common *common)
 {
-  return common->format != FORMAT_TABLE && (!common->output || !strcmp(common->output, "-"));
+  return !common->call && common->format != FORMAT_TABLE && (!common->output || !strcmp(common->output, "-"));
 }
 
 void cli_show_rows(const cli_common *common, const table *t, table_begun *begun)
@@ -679,6 +768,8 @@ int cli_write(const cli_common *common, int n, table *const *tables)
 int cli_write_rest(const cli_common *common, int n, table *const *tables, const table_begun *begun)
 {
   output *out = NULL;
+  for (int i = 0; i < n && common->call; ++i) cli_call_keep_table(common->call, tables[i]);
+  if (common->call) return common->call->status == HC_NO_MEMORY ? EXIT_NO_SOLUTION : 0;
   if (begun->failed) {
     errno = begun->failed;
     return cli_file_failed(common, common->output, errno == ENOMEM ? HC_NO_MEMORY : HC_IO);
@@ -690,17 +781,4 @@ int cli_write_rest(const cli_common *common, int n, table *const *tables, const 
   }
   if (st == HC_OK) st = output_finish(out, table_write_rest(n, tables, common->format, output_stream(out), begun));
   return st == HC_OK ? 0 : cli_file_failed(common, common->output, st);
-}
-
-/* ---- versions ---------------------------------------------------------------------- */
-
-void (*argp_program_version_hook)(FILE *, struct argp_state *) = cli_print_version;
-
-void cli_print_version(FILE *to, struct argp_state *state)
-{
-  char sundials[32] = "unknown";
-  (void)state;
-  SUNDIALSGetVersion(sundials, (int)sizeof sundials);
-  fprintf(to, "hbmcheck %s\nSUNDIALS %s, %s, GSL %s, libyaml %s, jansson %s, SQLite %s\n", HBMCHECK_VERSION, sundials,
-          fftw_version, gsl_version, yaml_get_version_string(), jansson_version_str(), sqlite3_libversion());
 }

@@ -5,6 +5,7 @@
 #include <argp.h>
 #include <stdbool.h>
 
+#include "compare/output/progress.h"
 #include "compare/output/rows.h"
 #include "compare/output/table.h"
 #include "interfaces/command/plot/plot.h"
@@ -57,6 +58,7 @@ typedef struct cli_texts {
 /* A command: its help, its own options, and what it does. */
 typedef struct cli_command cli_command;
 typedef struct cli_common cli_common;
+typedef struct cli_call cli_call;
 struct cli_command {
   const char *name;          /* "frf"                                                                   */
   const char *summary;       /* its line of hbmcheck --help                                             */
@@ -93,10 +95,17 @@ struct cli_common {
   bool wide;                    /* --wide */
   plot_order drawing;           /* --plot; path NULL: no drawing */
   const scene *scene;           /* the case at work, for messages; NULL before cli_load_case */
+  cli_call *call;               /* of a program (call.h): it gets what else is printed; NULL: of a shell */
 };
 
 /* Runs a command, argv[0] its name; its exit code. Ends the program on --help, --version and wrong usage (64). */
 int cli_run(const cli_command *self, int argc, char **argv);
+
+/* In its parts, for call.c. An option's value into the command's own struct, which cli_own_options makes, to free (NULL:
+ * no memory); false, and why it cannot be. Then the command, its options read; its exit code. */
+void *cli_own_options(const cli_command *self);
+bool cli_read_value(cli_common *common, const cli_option *o, const char *text, char why[CASE_MESSAGE]);
+int cli_run_parsed(cli_common *common);
 
 /* What --at takes, in its help. */
 #define CLI_FREQUENCIES "omegas, rad per unit time (cycles, where the case has sweep.frequency)"
@@ -133,14 +142,19 @@ int cli_check_files(cli_common *common, int n, const cli_file *files);
 
 /* Scenes computed at a time by default: the processors that are online, 1..CLI_MAX_JOBS. */
 int cli_processors(void);
+/* The same of a command; 1 for a call, whose monitor hears of one thread. */
+int cli_jobs(const cli_common *common);
 
 /* Read the case with --set into sc, then common->scene. 0, or the exit code after the message, also in err. */
 int cli_load_case(cli_common *common, const char *path, scene *sc, case_error *err);
 
+/* The same, but a structure with large sparse matrices is taken as such, for what can do with it. */
+int cli_load_sparse_case(cli_common *common, scene *sc);
+
 /* On stderr, unless quiet: what the reader says of pairs that were found by position. */
 void cli_say_notes(const cli_common *common, const scene *sc);
 /* The message for a file that cannot be read as what it should be, err's or else st's. Returns the exit code. */
-int cli_not_read(hc_status st, const case_error *err);
+int cli_not_read(const cli_common *common, hc_status st, const case_error *err);
 
 /* The frequencies of --at, if there are any, into compare.omega of the case: they are cycles per time where its sweep
  * is. Frequencies outside the sweep are warned of. Of those a factor 4 below or above it: what looks like the other
@@ -154,8 +168,19 @@ bool cli_frequencies_fit(const cli_common *common, const number_list *at, bool f
 
 /* "hbmcheck COMMAND: ..." on stderr. */
 void cli_message(const cli_common *common, const char *format, ...) __attribute__((format(printf, 2, 3)));
-/* The same, with the exit code as its value. */
+/* The same without the command's name, which stands in the text or is none of its business. */
+void cli_say(const cli_common *common, const char *format, ...) __attribute__((format(printf, 2, 3)));
+/* The same as cli_message, with the exit code as its value. */
 #define cli_failed(common, code, ...) (cli_message(common, __VA_ARGS__), (code))
+
+/* How the work as a whole ended, for a call; the first that is not HC_OK counts. Single rows may have failed beside. */
+void cli_ended(const cli_common *common, hc_status st);
+
+/* progress_start, or ticks of the caller's monitor. */
+progress *cli_progress(const cli_common *common, const char *label);
+
+/* Does somebody hear what is foretold? Else it need not be worked out. */
+bool cli_foretells(const cli_common *common);
 
 /* Whose settings the advice in a message is about. */
 typedef enum cli_solver { CLI_HBM, CLI_TRANSIENT, CLI_BOTH } cli_solver;
@@ -178,7 +203,8 @@ int cli_file_failed(const cli_common *common, const char *path, hc_status st);
 
 /* A table of own columns[n], without `frequency` and `response` where `extra` lacks ROWS_IN_CYCLES, ROWS_RESPONSES. */
 table *cli_own_table(const char *title, unsigned extra, int n, const table_column *columns);
-#define CLI_COLUMNS(list) (int)(sizeof(list) / sizeof *(list)), list
+#define CLI_LENGTH(list)  (int)(sizeof(list) / sizeof *(list))
+#define CLI_COLUMNS(list) CLI_LENGTH(list), list
 
 /* The columns of rows.h that only some cases have, for this one. */
 unsigned cli_extra_columns(const scene *sc);
@@ -186,6 +212,10 @@ unsigned cli_extra_columns(const scene *sc);
 /* An empty table of that kind of rows (rows.h), which a narrow screen may show in part; and one row of it. */
 table *cli_table(const cli_common *common, const char *title, rows_kind kind);
 void cli_put_row(const cli_common *common, table *t, rows_kind kind, const void *row);
+
+/* Does a table of that kind have the column, somewhere but where a narrow screen would lose it? What is read nowhere
+ * need not be computed. */
+bool cli_reads(const cli_common *common, rows_kind kind, const char *column);
 
 /* The length of a line: output_columns, or 100. At least 40. */
 int cli_width(const cli_common *common);

@@ -127,12 +127,13 @@ static int run_advise(cli_common *common, void *given, scene *sc)
   if (!own->at.n) sc->compare.omega.n = 0;
   if (!code) code = cli_take_frequencies(common, &own->at, true, sc);
   if (code) return code;
-  progress *bar = progress_start("trying settings", common->quiet);
+  progress *bar = cli_progress(common, "trying settings");
   hc_monitor monitor = progress_monitor(bar);
   hc_status st = scene_setup(sc, &setup);
   if (st == HC_OK) st = sufficient_run(&setup, own->error, own->without_static, &monitor, &found);
   scene_setup_clear(&setup);
   progress_end(bar);
+  cli_ended(common, st);
   if (st != HC_OK) code = cli_solver_failed(common, CLI_HBM, "harmonic balance", st, 0);
   const int written = found.n ? write_advice(common, sc, own, &found, st) : 0;
   for (int i = 0; i < found.n; ++i)

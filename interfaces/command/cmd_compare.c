@@ -7,6 +7,7 @@
 
 #include "compare/comparison.h"
 #include "compare/duration.h"
+#include "compare/gate/gate.h"
 #include "compare/memory.h"
 #include "compare/output/progress.h"
 #include "interfaces/command/case_names.h"
@@ -261,6 +262,20 @@ static int tables_of_found(const cli_common *common, bool contacts, const compar
   return 1 + contacts;
 }
 
+/* What `hbmcheck gate` says of these rows, in numbers: for programs. */
+static table *gate_table(const cli_common *common, const compare_setup *setup, const comparison *c)
+{
+  static const table_column columns[] = {INTEGER("checks"), INTEGER("failed"), INTEGER("errors"),
+                                         INTEGER("not_applicable"), INTEGER("exit_code")};
+  gate_case g;
+  const hc_status st = gate_judge("", setup, c, &g);
+  table *t = table_new("Gate", CLI_COLUMNS(columns));
+  TABLE_ROW(t, CELL(g.n), CELL(g.failures), CELL(g.errors), CELL(g.not_applicable), CELL(gate_exit_code(1, &g)));
+  cli_ended(common, st);
+  gate_clear(&g);
+  return t;
+}
+
 typedef struct found_rows {
   const cli_common *common;
   const compare_setup *setup;
@@ -296,7 +311,7 @@ static void show_found(void *self)
 static void foretell_time(const cli_common *common, const compare_setup *setup, bool with_tables)
 {
   duration_units u;
-  if (common->quiet) return;
+  if (!cli_foretells(common)) return;
   duration_measure(setup, &u);
   const int n = duration_frequencies(setup);
   const double tables = with_tables ? duration_of_tables(&u, &setup->compare) : 0;
@@ -309,7 +324,7 @@ static int run_compare(cli_common *common, void *given, scene *sc)
   comparison c = {0};
   accuracy a = {0};
   proofs p = {0};
-  table *tables[5] = {NULL};
+  table *tables[6] = {NULL};
   int code = compare_lists(common, &own->lists, sc);
   if (!code) code = cli_keep_response(common, sc, own->response);
   if (!code) code = cli_take_frequencies(common, &own->at, true, sc);
@@ -319,16 +334,16 @@ static int run_compare(cli_common *common, void *given, scene *sc)
   const bool with_tables = own->tables || own->lists.harmonics.n || own->lists.samples.n;
   if (st == HC_OK) cli_foretell_memory(common, memory_of_comparison(&setup));
   if (st == HC_OK) foretell_time(common, &setup, with_tables);
-  progress *bar = progress_start("comparing", common->quiet);
+  progress *bar = cli_progress(common, "comparing");
   hc_monitor monitor = progress_monitor(bar);
-  setup.jobs = cli_processors();
+  setup.jobs = cli_jobs(common);
   setup.contacts = own->contacts;
   setup.advise = true;
-  setup.spare =
-      common->format == FORMAT_TABLE && !common->wide && !common->drawing.path; /* from_integration is not shown */
+  setup.spare = !cli_reads(common, ROWS_COMPARE, "from_integration");
+  setup.multipliers = cli_reads(common, ROWS_COMPARE, "multiplier");
   found_rows found = {.common = common, .setup = &setup, .c = &c};
   shown_rows_begin(&found.shown, own->contacts || with_tables || own->prove);
-  keep_found_begin(&found.beside, write_found, &found);
+  keep_found_begin(&found.beside, common, write_found, &found);
   setup.found = &found.beside.found;
   if (cli_shows_rows(common)) setup.added = show_found, setup.added_to = &found;
   if (st == HC_OK) st = comparison_run(&setup, &monitor, &c);
@@ -346,6 +361,8 @@ static int run_compare(cli_common *common, void *given, scene *sc)
   const int error = errno;
   keep_found_end(&found.beside);
   progress_end(bar);
+  cli_ended(common, st != HC_OK ? st : tabled != HC_OK ? tabled : proved);
+  if (st == HC_OK && common->call) tables[n_tables++] = gate_table(common, &setup, &c);
   if (st == HC_OK && own->prove) tables[n_tables++] = proofs_table(common, &p, proved);
   if (proved != HC_OK) proofs_ended(common, p.curve_end, proved, error);
   if (st != HC_OK) code = cli_solver_failed(common, CLI_BOTH, "the comparison", st, 0);

@@ -323,6 +323,7 @@ static int evaluate(const cli_common *common, const contact_motion *m, const int
     if (st == HC_BAD_INPUT)
       return cli_failed(common, EXIT_USAGE, "%d samples are too few for %d harmonics; expected at least %d", n_time[i],
                         m->of.n_harm, 2 * m->of.n_harm + 1);
+    cli_ended(common, st);
     if (st != HC_OK) return cli_solver_failed(common, CLI_HBM, "the contact force", st, 0);
     for (int k = 0; m->table && k < series_length(m->of.n_harm); ++k)
       F[i][k] += scene_contact_slope(m->table) * m->X[k] + (k == 0 ? scene_contact_table(m->table, 0) : 0);

@@ -141,13 +141,34 @@ static const char help[] =
 
 typedef struct describe_options {
   const char *case_file; /* NULL: not given */
+  bool columns;
 } describe_options;
 
 static const cli_option options[] = {
     {CLI_TEXT, "case", "CASE", "Also the values of this case file, with --set, and what follows from them",
      offsetof(describe_options, case_file), .file = "the case file", .use = CLI_INPUT},
+    {CLI_FLAG, "columns", NULL, "What the columns of results are, with their units",
+     offsetof(describe_options, columns)},
     {0},
 };
+
+/* ---- the columns of results ---- */
+
+static int write_columns(const cli_common *common)
+{
+  static const table_column columns[] = {TEXT("table"), TEXT("column"), TEXT("unit"), TEXT("meaning")};
+  table *t = table_new("Columns", CLI_COLUMNS(columns));
+  for (int kind = 0; kind < ROWS_KINDS; ++kind) {
+    table_column of[ROWS_MOST];
+    const int n = rows_columns((rows_kind)kind, ROWS_IN_CYCLES | ROWS_RESPONSES | ROWS_IN_MEMORY, of);
+    for (int i = 0; i < n; ++i)
+      TABLE_ROW(t, CELL(rows_name((rows_kind)kind)), CELL(of[i].name), CELL_IF(*of[i].unit, of[i].unit),
+                CELL(of[i].meaning));
+  }
+  const int code = cli_write(common, 1, &t);
+  table_free(t);
+  return code;
+}
 
 /* ---- the table of fields ---- */
 
@@ -271,7 +292,7 @@ static int describe_case(const cli_common *common, const char *path)
   hc_status st = places ? case_read_placed(path, common->n_set, common->set, &sc, places, &err) : HC_NO_MEMORY;
   const described d = {&sc, places, common->arguments[0]};
   if (st == HC_OK) cli_say_notes(common, &sc);
-  const int code = st == HC_OK ? write_values(common, &d) : cli_not_read(st, &err);
+  const int code = st == HC_OK ? write_values(common, &d) : cli_not_read(common, st, &err);
   case_clear(&sc);
   free(places);
   return code;
@@ -299,6 +320,7 @@ static int run_describe(cli_common *common, void *given, scene *sc)
   const describe_options *own = given;
   int code;
   (void)sc;
+  if (own->columns) return write_columns(common);
   if (common->n_set && !own->case_file)
     return cli_failed(common, EXIT_USAGE, "--set has no case file to set anything in; expected --case CASE, too");
   if (common->format == FORMAT_TABLE && !own->case_file) return write_text(common, common->output);

@@ -47,10 +47,11 @@ typedef struct found_points {
   hbm_solver *s;
   plot_responses of_case;
   progress *bar;
-  double began; /* [s] processor time of this thread */
-  bool free;    /* a slider that never slips leaves a mean to history */
-  int points;   /* so many */
-  double last;  /* [rad/time] the last one's omega */
+  double began;                        /* [s] processor time of this thread */
+  double X[2 * HBM_MAX_HARMONICS + 1]; /* of a response, for programs */
+  bool free;                           /* a slider that never slips leaves a mean to history */
+  int points;                          /* so many */
+  double last;                         /* [rad/time] the last one's omega */
   keep_found beside;
   shown_rows shown;            /* the rows of all points, of the thread that finds them */
   table *contacts;             /* and of all contacts; NULL without --contacts */
@@ -71,6 +72,10 @@ static hc_status put_point(found_points *f, const hbm_curve *c, int k)
   hc_status st = response_row_of(f->s, c, k, &row);
   for (int r = f->of_case.first; r <= f->of_case.last && st == HC_OK; ++r) {
     if (r > 0) st = response_row_turn(f->s, c, k, r, &row);
+    if (st == HC_OK && f->common->call) {
+      st = hbm_response(f->s, row.point.omega, hbm_curve_X(c, k), r, f->X);
+      row.series = f->X;
+    }
     if (!of->is_oscillator) structure_response_name(of, r, row.response, sizeof row.response);
     f->free |= row.measures.contact.free_sliders > 0;
     pthread_mutex_lock(&f->beside.found);
@@ -198,8 +203,8 @@ static void note_curve(table *t, const scene *sc, const hbm_solver *s, const hbm
 }
 
 /* In the table the first contact changes only, which may be many; all that stability changes at, and in csv and json
- * everything. */
-static hc_status note_specials(const cli_common *common, table *t, hbm_solver *s, const hbm_curve *c)
+ * everything; for programs as rows of `specials`, too. */
+static hc_status note_specials(const cli_common *common, table *t, table *specials, hbm_solver *s, const hbm_curve *c)
 {
   enum { SHOWN = 24 };
   const scene *sc = common->scene;
@@ -222,6 +227,7 @@ static hc_status note_specials(const cli_common *common, table *t, hbm_solver *s
     const hbm_special *p = &special[i];
     char what[ROWS_SPECIAL], omega[ROWS_WITH_ERROR], frequency[ROWS_WITH_ERROR];
     changes += p->kind == HBM_CONTACT_CHANGE;
+    if (common->call) cli_put_row(common, specials, ROWS_SPECIALS, p);
     if (p->kind == HBM_CONTACT_CHANGE && changes > SHOWN && !all) continue;
     rows_special_text(p, what);
     rows_with_error(p->omega, p->omega_error, omega);
@@ -234,6 +240,17 @@ static hc_status note_specials(const cli_common *common, table *t, hbm_solver *s
   if (st != HC_OK) table_note(t, "at least one more was noticed but not located: %s", hc_status_text(st));
   free(special);
   return st;
+}
+
+/* The whole curve in a row: for programs. */
+static table *summary_table(const cli_common *common, hbm_solver *s, const hbm_curve *c, hc_status *st)
+{
+  response_summary whole;
+  table *t = cli_table(common, "Curve", ROWS_CURVE);
+  const hc_status summarised = response_summarise(s, c, &whole);
+  if (summarised == HC_OK) cli_put_row(common, t, ROWS_CURVE, &whole);
+  else if (*st == HC_OK) *st = summarised;
+  return t;
 }
 
 static int run_frf(cli_common *common, void *given, scene *sc)
@@ -252,15 +269,16 @@ static int run_frf(cli_common *common, void *given, scene *sc)
   compare_setup setup;
   if (scene_setup(sc, &setup) == HC_OK) cli_foretell_memory(common, memory_of_curve(setup.model, &setup.hbm));
   scene_setup_clear(&setup);
-  progress *bar = progress_start("harmonic balance", common->quiet);
+  progress *bar = cli_progress(common, "harmonic balance");
   hc_monitor monitor = progress_monitor(bar);
   found_points f = {.common = common, .of_case = of_case, .bar = bar, .began = thread_seconds()};
   shown_rows_begin(&f.shown, own->contacts);
   table *t = f.shown.rows = table_of_points(common);
+  table *specials = common->call ? cli_table(common, "Special points", ROWS_SPECIALS) : NULL, *whole = NULL;
   f.kept = table_of_points(common);
   if (own->contacts) f.contacts = cli_table(common, "Contacts", ROWS_CONTACT);
   if (own->contacts) f.contacts_kept = cli_table(common, "Contacts", ROWS_CONTACT);
-  keep_found_begin(&f.beside, write_found, &f);
+  keep_found_begin(&f.beside, common, write_found, &f);
   comparison_sweep(sc->omega_from, sc->omega_to, at, &from, &to);
   hc_status st = scene_hbm_solver(sc, &f.s);
   hbm_solver *s = f.s;
@@ -277,7 +295,7 @@ static int run_frf(cli_common *common, void *given, scene *sc)
     note_curve(t, sc, s, &curve, at->n > 0);
     const hbm_newton_report work = hbm_newton_work(s);
     if (own->verbose) table_note(t, "Newton: %d unknowns, %ld factorisations", work.unknowns, work.factorisations);
-    solved = at->n || st == HC_INTERRUPTED ? HC_OK : note_specials(common, t, s, &curve);
+    solved = at->n || st == HC_INTERRUPTED ? HC_OK : note_specials(common, t, specials, s, &curve);
     if (st == HC_OK && solved == HC_NO_MEMORY) st = solved; /* another failure to locate one is in the note */
     /* where there is no solution: at the first frequency without, else past the last point */
     const double none_at = lacks_at > 0 ? lacks_at : curve.n ? cli_past(sc, failed_at) : failed_at;
@@ -294,13 +312,21 @@ static int run_frf(cli_common *common, void *given, scene *sc)
   }
   keep_found_end(&f.beside);
   progress_end(bar);
-  int code = 0;
+  int code = 0, n_tables = 1 + own->contacts;
+  table *tables[4] = {t, f.contacts};
+  if (common->call && s) {
+    tables[n_tables++] = specials;
+    tables[n_tables++] = whole = summary_table(common, s, &curve, &st);
+  }
+  cli_ended(common, st);
   if (st == HC_CREEPS) code = cli_creeps(common, failed_at, name, drift);
   else if (st != HC_OK) code = cli_solver_failed(common, CLI_HBM, "harmonic balance", st, failed_at);
-  int written = s ? cli_write_rest(common, own->contacts ? 2 : 1, (table *[]){t, f.contacts}, &f.shown.begun) : 0;
+  int written = s ? cli_write_rest(common, n_tables, tables, &f.shown.begun) : 0;
   if (common->drawing.path && s && !written)
     written = cli_plotted(common, plot_frf(&common->drawing, sc, s, &curve, at->n ? &found : NULL, of_case));
   shown_rows_end(&f.shown);
+  table_free(specials);
+  table_free(whole);
   table_free(f.contacts);
   table_free(f.kept);
   table_free(f.contacts_kept);

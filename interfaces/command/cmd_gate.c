@@ -98,7 +98,7 @@ static void foretell_time(const gate_call *call)
 {
   double seconds = 0;
   int frequencies = 0;
-  for (int i = 0; i < call->common->n_arguments && !call->common->quiet; ++i) {
+  for (int i = 0; i < call->common->n_arguments && cli_foretells(call->common); ++i) {
     duration_units u;
     compare_setup setup;
     if (call->cases[i].wrong) continue;
@@ -149,10 +149,11 @@ static int judge_cases(gate_call *call)
   const cli_common *common = call->common;
   const char *name = common->n_arguments == 1 ? common->arguments[0] : "gate";
   foretell_time(call);
-  progress *bar = progress_start(name, common->quiet);
+  progress *bar = cli_progress(common, name);
   hc_monitor monitor = progress_monitor(bar);
   const hc_status st = workers_run(call->own->jobs, common->n_arguments, judge_case, call, &monitor);
   progress_end(bar);
+  cli_ended(common, st);
   if (st == HC_OK) return 0;
   int error = 0;
   for (int i = 0; i < common->n_arguments && !error; ++i) error = call->of[i].no_checker;

@@ -49,6 +49,7 @@ static int run_large(cli_common *common, int count, const scene *sc)
   for (int i = 0; i < found[0] && i < found[1] && st == HC_OK; ++i)
     TABLE_ROW(t, CELL(i + 1), MODE_CELLS(modes[i]), MODE_CELLS(modes[count + i]));
   table_note(t, "the lowest of %d degrees of freedom; contacts at rest: after `hbmcheck reduce`", sc->structure->n);
+  cli_ended(common, st);
   const int code =
       st == HC_OK ? cli_write(common, 1, &t) : cli_failed(common, EXIT_NO_SOLUTION, "no modes: %s", hc_status_text(st));
   table_free(t);
@@ -59,15 +60,10 @@ static int run_large(cli_common *common, int count, const scene *sc)
 static int run_modes(cli_common *common, void *own, scene *sc)
 {
   const int count = ((const modes_options *)own)->count;
-  case_error err = {{0}};
   model *m = NULL;
   int code = cli_check_files(common, 0, NULL);
+  if (!code) code = cli_load_sparse_case(common, sc);
   if (code) return code;
-  common->scene = sc;
-  const hc_status read =
-      case_read_sparse(common->arguments[0], common->n_set, common->set, MATRIX_MOST_DENSE, sc, NULL, &err);
-  if (read != HC_OK) return cli_not_read(read, &err);
-  cli_say_notes(common, sc);
   if (sc->structure->is_sparse) return run_large(common, count, sc);
   table *tables[] = {table_new("Modes", CLI_COLUMNS(mode_columns)),
                      table_new("Contacts at rest", CLI_COLUMNS(contact_columns))};
@@ -104,6 +100,7 @@ static int run_modes(cli_common *common, void *own, scene *sc)
     hbm_solver_free(s);
     free(N);
   }
+  cli_ended(common, st);
   code = st != HC_OK ? cli_solver_failed(common, CLI_HBM, "modes", st, 0)
                      : cli_write(common, m->n_contacts ? 2 : 1, tables);
   for (int i = 0; i < 2; ++i) table_free(tables[i]);

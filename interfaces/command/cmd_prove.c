@@ -144,12 +144,13 @@ static int run_prove(cli_common *common, void *given, scene *sc)
   if (code) return code;
   compare_setup setup;
   proofs found = {0};
-  progress *bar = progress_start("proving", common->quiet);
+  progress *bar = cli_progress(common, "proving");
   hc_monitor monitor = progress_monitor(bar);
   hc_status st = scene_setup(sc, &setup);
   if (st == HC_OK) st = prove_run(sc, &setup, &monitor, keep_certificate, &folder, &found);
   const int error = errno;
   progress_end(bar);
+  cli_ended(common, st);
   code = folder.failed ? EXIT_NO_SOLUTION : proofs_ended(common, found.curve_end, st, error);
   table *t = proofs_table(common, &found, st);
   int written = found.n ? cli_write(common, 1, &t) : 0, unproven = 0;

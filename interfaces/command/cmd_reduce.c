@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "interfaces/command/call.h"
 #include "interfaces/command/commands.h"
 #include "model/reduce/reduced_case.h"
 #include "numerics/base/constants.h"
@@ -79,10 +80,11 @@ static hc_status find_modes(const reduce_options *o, const scene *sc, craig_bamp
   }
 }
 
-/* Signals that end the program wait until the folder is whole. */
-static void hold_signals(bool hold)
+/* Signals that end the program wait until the folder is whole; those of a program that calls are its own. */
+static void hold_signals(const cli_common *common, bool hold)
 {
   sigset_t all;
+  if (common->call) return;
   sigemptyset(&all);
   sigaddset(&all, SIGINT);
   sigaddset(&all, SIGTERM);
@@ -105,17 +107,17 @@ static int write_folder(cli_common *common, const scene *sc, case_source *source
     case_error err = {{0}};
     snprintf(part, size, "%s.part", folder);
     snprintf(path, size, "%s/%s", part, name);
-    hold_signals(true);
+    hold_signals(common, true);
     hc_status st = reduced_case_write(part, name, source, sc, cb, modes, stated);
     if (st != HC_OK) code = cli_file_failed(common, folder, st);
     if (!code && (st = case_read(path, 0, NULL, &again, &err)) != HC_OK) {
       cli_message(common, "the reduced case is refused:");
-      code = cli_not_read(st, &err);
+      code = cli_not_read(common, st, &err);
     }
     case_clear(&again);
     if (!code && !reduced_case_place(part, folder)) code = cli_file_failed(common, folder, HC_IO);
     if (code) reduced_case_remove(part);
-    hold_signals(false);
+    hold_signals(common, false);
   }
   free(folder);
   free(part);
@@ -130,21 +132,22 @@ static int reduce(cli_common *common, const reduce_options *o, const scene *sc, 
   receptance_error stated = {0};
   hc_status st = reduced_case_rows(sc->structure, source, &n_kept, &kept);
   if (st == HC_OK && n_kept > MOST_ROWS) {
-    fprintf(stderr, "%s: contacts, loads and responses name %d degrees of freedom, expected at most %d\n",
+    cli_say(common, "%s: contacts, loads and responses name %d degrees of freedom, expected at most %d",
             common->arguments[0], n_kept, (int)MOST_ROWS);
     code = EXIT_BAD_CASE;
   } else if (st == HC_OK) {
     st = craig_bampton_new(sc->structure, n_kept, kept, &cb);
     if (st == HC_SINGULAR) {
       const case_place at = sc->structure->stiffness.place;
-      fprintf(stderr,
+      cli_say(common,
               "%s:%zu:%zu: structure.stiffness does not hold a motion that leaves contacts, loads and responses at "
-              "rest, and nothing else does, expected a spring or a contact against it\n",
+              "rest, and nothing else does, expected a spring or a contact against it",
               common->arguments[0], at.line, at.column);
       code = EXIT_BAD_CASE;
     }
   }
   if (!code && st == HC_OK) st = find_modes(o, sc, cb, &modes, &stated);
+  if (!code) cli_ended(common, st);
   if (!code && st != HC_OK) code = cli_failed(common, EXIT_NO_SOLUTION, "no reduced model: %s", hc_status_text(st));
   if (!code) code = write_folder(common, sc, source, cb, modes, &stated);
   if (!code) {
@@ -168,14 +171,16 @@ static int run_reduce(cli_common *common, void *own, scene *sc)
   case_source source;
   case_error err = {{0}};
   if (!common->output) return cli_failed(common, EXIT_USAGE, "no -o FOLDER given");
+  if (common->call && common->call->text)
+    return cli_failed(common, EXIT_USAGE, "a case from memory is not reduced, expected a case file");
   if (common->n_set > 0)
     return cli_failed(common, EXIT_USAGE,
                       "--set does not go into the reduced case; write it into CASE, or --set it there");
   common->scene = sc;
   const hc_status st = case_read_sparse(common->arguments[0], 0, NULL, 0, sc, &source, &err);
-  int code = st == HC_OK ? 0 : cli_not_read(st, &err);
+  int code = st == HC_OK ? 0 : cli_not_read(common, st, &err);
   if (!code && scene_is_oscillator(sc)) {
-    fprintf(stderr, "%s: an oscillator, expected `structure`, which can be reduced\n", common->arguments[0]);
+    cli_say(common, "%s: an oscillator, expected `structure`, which can be reduced", common->arguments[0]);
     code = EXIT_BAD_CASE;
   }
   if (!code && sc->structure->base)

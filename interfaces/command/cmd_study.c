@@ -87,7 +87,7 @@ typedef struct study_call {
 /* The message for a study or results file that is wrong, printed by rank 0 only. Returns the exit code. */
 static int study_failed(const study_call *call, hc_status st, const case_error *err)
 {
-  return call->rank == 0 ? cli_not_read(st, err) : st == HC_NO_MEMORY ? EXIT_NO_SOLUTION : EXIT_BAD_CASE;
+  return call->rank == 0 ? cli_not_read(call->common, st, err) : st == HC_NO_MEMORY ? EXIT_NO_SOLUTION : EXIT_BAD_CASE;
 }
 
 /* The message for wrong usage, printed by rank 0 only. Its value is the exit code. */

@@ -157,17 +157,17 @@ static int run_transient(cli_common *common, void *given, scene *sc)
   steady_states found = {0};
   compare_setup setup;
   hc_status st = scene_setup(sc, &setup);
-  if (st == HC_OK && !common->quiet) {
+  if (st == HC_OK && cli_foretells(common)) {
     duration_units u;
     duration_measure(&setup, &u);
     const int n = duration_frequencies(&setup);
     cli_foretell_time(common, duration_of_steady_states(&u, n), n, setup.model);
   }
-  progress *bar = progress_start("time integration", common->quiet);
+  progress *bar = cli_progress(common, "time integration");
   hc_monitor monitor = progress_monitor(bar);
   found_states so_far = {.common = common, .contacts = own->contacts, .found = &found};
   shown_rows_begin(&so_far.shown, own->contacts);
-  keep_found_begin(&so_far.beside, write_found, &so_far);
+  keep_found_begin(&so_far.beside, common, write_found, &so_far);
   setup.contacts = own->contacts;
   setup.found = &so_far.beside.found;
   if (cli_shows_rows(common)) setup.added = show_found, setup.added_to = &so_far;
@@ -175,6 +175,7 @@ static int run_transient(cli_common *common, void *given, scene *sc)
   keep_found_end(&so_far.beside);
   scene_setup_clear(&setup);
   progress_end(bar);
+  cli_ended(common, st);
   table *tables[2];
   code = tables_of_found(&so_far, st, tables);
   int written = st == HC_OK || found.n ? cli_write_rest(common, own->contacts ? 2 : 1, tables, &so_far.shown.begun) : 0;

@@ -8,6 +8,7 @@
 #include "compare/duration.h"
 #include "compare/output/progress.h"
 #include "compare/verify/verify.h"
+#include "interfaces/command/call.h"
 #include "interfaces/command/case_names.h"
 #include "interfaces/command/cli.h"
 #include "interfaces/command/commands.h"
@@ -170,10 +171,12 @@ static const table_column hypothesis_columns[] = {TEXT("response"),       TEXT("
                                                   INTEGER("samples"),     TEXT("slider_restart"), REAL("omega_factor"),
                                                   REAL("value_factor"),   TEXT("quantity")};
 static const table_column summary_columns[] = {
-    TEXT("response"),   TEXT("cause"),       TEXT("nearest_guess"), TEXT("quantity"),        INTEGER("points"),
-    INTEGER("match"),   INTEGER("differs"),  INTEGER("unstable"),   INTEGER("other_branch"), INTEGER("solver_failed"),
-    INTEGER("skipped"), INTEGER("left_out"), INTEGER("reversals"),  REAL("truth_distance"),  REAL("noise"),
-    TEXT("sentence")};
+    TEXT("response"),   TEXT("cause"),        TEXT("nearest_guess"), TEXT("quantity"),        INTEGER("points"),
+    INTEGER("match"),   INTEGER("differs"),   INTEGER("unstable"),   INTEGER("other_branch"), INTEGER("solver_failed"),
+    INTEGER("skipped"), INTEGER("left_out"),  INTEGER("reversals"),  REAL("truth_distance"),  REAL("noise"),
+    TEXT("sentence"),   INTEGER("harmonics"), INTEGER("checked"),    INTEGER("unchecked"),    REAL("checked_error"),
+    REAL("gate")};
+enum { N_SUMMARY = CLI_LENGTH(summary_columns), FOR_PROGRAMS = 5 /* the last of them */ };
 static const char *const spare_hypothesis_columns[] = {"slider_restart", "omega_factor",   "value_factor",
                                                        "static",         "truth_distance", "quantity",
                                                        "samples",        "harmonics",      NULL};
@@ -245,12 +248,14 @@ static void note_verification(table *t, const scene *sc, const verify_data *data
 static int write_tables(const verify_call *call)
 {
   const scene *sc = call->sc;
-  const bool of_structure = !scene_is_oscillator(sc);
+  const bool of_structure = !scene_is_oscillator(sc), more = call->common->call != NULL;
   const unsigned extra = cli_extra_columns(sc);
   char words[VERIFY_TEXT], guess[VERIFY_TEXT], sentence[VERIFY_TEXT], name[VERIFY_QUANTITY_TEXT];
   table *points = cli_own_table("Points", extra, CLI_COLUMNS(columns)),
         *hypotheses = cli_own_table("Hypotheses", extra, CLI_COLUMNS(hypothesis_columns)),
-        *summary = cli_own_table("Summary", extra, CLI_COLUMNS(summary_columns)), *tables[3] = {points};
+        *summary =
+            cli_own_table("Summary", extra, N_SUMMARY - (call->common->call ? 0 : FOR_PROGRAMS), summary_columns),
+        *tables[3] = {points};
   int n = 1, n_hypotheses = 0;
   table_note(points, "%s", sc->title);
   for (int k = 0; k < call->n; ++k) {
@@ -267,7 +272,7 @@ static int write_tables(const verify_call *call)
                 CELL_IF(row->branch >= 0, stable), CELL(row->error),
                 CELL(row->skipped ? "skipped" : verdict_name(row->verdict)), CELL(row->line));
     }
-    for (int i = 0; i < r->n_hypotheses && i < VERIFY_SHOWN; ++i) {
+    for (int i = 0; i < r->n_hypotheses && (i < VERIFY_SHOWN || call->common->call); ++i) {
       const verify_hypothesis *h = &r->hypotheses[i];
       const verify_equations *e = &h->equations;
       const bool linear = verify_equations_linear(e);
@@ -283,7 +288,9 @@ static int write_tables(const verify_call *call)
               CELL(verify_quantity_name(&data->quantity, name)), CELL(r->n_rows), CELL(r->count[VERDICT_MATCH]),
               CELL(r->count[VERDICT_DIFFERS]), CELL(r->count[VERDICT_UNSTABLE]), CELL(r->count[VERDICT_OTHER_BRANCH]),
               CELL(r->count[VERDICT_SOLVER_FAILED]), CELL(r->skipped), CELL(r->left_out), CELL(r->reversals),
-              CELL(r->truth_distance), CELL(r->noise), CELL(verify_sentence(r, sentence)));
+              CELL(r->truth_distance), CELL(r->noise), CELL(verify_sentence(r, sentence)), CELL_OF(more, r->harmonics),
+              CELL_OF(more, r->checked), CELL_OF(more, r->unchecked), CELL_OF(more, r->checked_error),
+              CELL_OF(more, r->gate));
     if (!scene_is_oscillator(sc)) table_note(points, "response %s", response);
     note_verification(points, sc, data, r);
   }
@@ -308,12 +315,16 @@ static int read_curve(verify_call *call, double noise, int k)
   if (verify_columns_read(*curve->columns ? curve->columns : NULL, call->own->asked.quantity, &where, words) != HC_OK)
     return cli_failed(common, EXIT_USAGE, "%s", words);
   where.response = !scene_is_oscillator(call->sc) ? curve->name : NULL;
-  hc_status st = verify_data_read(call->own->against, &where, data, words);
+  const cli_call *from = common->call;
+  hc_status st = from && from->points ? verify_data_of(call->own->asked.quantity, noise, from->n_points, from->points,
+                                                       from->points + from->n_points, data, words)
+                                      : verify_data_read(call->own->against, &where, data, words);
   data->noise = noise;
   data->response = curve->response;
   data->with_line = common->drawing.path;
   if (st != HC_OK) {
-    fprintf(stderr, "%s\n", words);
+    cli_ended(common, st);
+    cli_say(common, "%s", words);
     return st == HC_NO_MEMORY ? EXIT_NO_SOLUTION : EXIT_BAD_CASE;
   }
   const char *refused = !scene_is_oscillator(call->sc) ? verify_quantity_refused_of_structure(&data->quantity) : NULL;
@@ -342,7 +353,9 @@ static int read_curves(verify_call *call)
 {
   const char *said = call->own->noise, *patience = call->own->patience;
   double noise = 0;
-  if (!call->own->against) return cli_failed(call->common, EXIT_USAGE, "no --against given, expected --against FILE");
+  const bool handed_in = call->common->call && call->common->call->points;
+  if (!call->own->against && !handed_in)
+    return cli_failed(call->common, EXIT_USAGE, "no --against given, expected --against FILE");
   const int n = verify_curves_of(call->common, &call->own->asked, call->curves);
   if (n == 0) return EXIT_USAGE;
   if (n > 1 && call->common->drawing.path)
@@ -354,7 +367,7 @@ static int read_curves(verify_call *call)
   if (patience && (number_read(patience, strlen(patience), seconds) != NUMBER_FINE || !(*seconds > 0)))
     return cli_failed(call->common, EXIT_USAGE, "--patience: '%.40s' is no time, expected seconds > 0 such as 30",
                       patience);
-  if (!call->common->quiet) call->effort.say = say_so_far, call->effort.self = call;
+  if (cli_foretells(call->common)) call->effort.say = say_so_far, call->effort.self = call;
   if (!(call->reports = calloc((size_t)n, sizeof *call->reports)))
     return cli_solver_failed(call->common, CLI_BOTH, "the verification", HC_NO_MEMORY, 0);
   for (int code; call->n < n; ++call->n)
@@ -375,7 +388,7 @@ static int verify_curves(verify_call *call, hc_status *st)
   compare_setup setup;
   int code = 0;
   *st = scene_setup(call->sc, &setup);
-  if (*st == HC_OK && !call->common->quiet) { /* one model for all curves of the file */
+  if (*st == HC_OK && cli_foretells(call->common)) { /* one model for all curves of the file */
     duration_units u;
     double seconds = 0;
     int points = 0;
@@ -386,12 +399,13 @@ static int verify_curves(verify_call *call, hc_status *st)
     }
     cli_foretell_time(call->common, seconds, points, setup.model);
   }
-  progress *bar = progress_start("verifying", call->common->quiet);
+  progress *bar = cli_progress(call->common, "verifying");
   hc_monitor monitor = progress_monitor(bar);
   if (*st == HC_OK) *st = verify_run(&setup, call->n, call->data, &call->effort, &monitor, call->reports);
   for (int k = 0; k < call->n && *st == HC_OK; ++k) code = worse(code, verify_exit_code(&call->reports[k]));
   scene_setup_clear(&setup);
   progress_end(bar);
+  cli_ended(call->common, *st);
   if (*st != HC_OK) return cli_solver_failed(call->common, CLI_BOTH, "the verification", *st, 0);
   if (code == EXIT_NO_SOLUTION)
     cli_message(call->common, "some points could not be judged; the notes of the table say why");

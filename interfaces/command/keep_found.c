@@ -35,12 +35,12 @@ static void *wait_for_signal(void *self)
   return NULL;
 }
 
-void keep_found_begin(keep_found *k, int (*write)(void *self), void *self)
+void keep_found_begin(keep_found *k, const cli_common *common, int (*write)(void *self), void *self)
 {
   *k = (keep_found){.write = write, .self = self};
   pthread_mutex_init(&k->found, NULL);
   pthread_cond_init(&k->ended, NULL);
-  k->watched = pthread_create(&k->thread, NULL, wait_for_signal, k) == 0;
+  k->watched = !common->call && pthread_create(&k->thread, NULL, wait_for_signal, k) == 0;
   if (k->watched) progress_hold(true);
 }
 

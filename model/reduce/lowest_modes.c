@@ -2,6 +2,7 @@
 #include "model/reduce/lowest_modes.h"
 
 #include <arpack/arpack.h>
+#include <pthread.h>
 #include <string.h>
 
 #include "numerics/base/workspace.h"
@@ -61,6 +62,8 @@ hc_status lowest_modes(factor *f, const sparse *M, const bool *held, int known, 
     lambda[known] = 1 / dot_product(n, basis, basis + n);
     *found = 1;
   }
+  static pthread_mutex_t turn = PTHREAD_MUTEX_INITIALIZER; /* ARPACK keeps where it is in variables of its own */
+  pthread_mutex_lock(&turn);
   while (st == HC_OK && !last && ido != 99) {
     dsaupd_c(&ido, "G", n, "LM", more, 1e-13, residual, vectors, V, n, parameters, pointers, basis, room, work, &info);
     if (ido != -1 && ido != 1 && ido != 2) break;
@@ -81,6 +84,7 @@ hc_status lowest_modes(factor *f, const sparse *M, const bool *held, int known, 
     if (info != 0) st = HC_NOT_CONVERGED;
     else *found = more;
   }
+  pthread_mutex_unlock(&turn);
   workspace_free(&memory);
   return st;
 }

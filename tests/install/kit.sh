@@ -74,7 +74,7 @@ declared() {
 abi() {
   declared >"$scratch/declared.txt"
   nm -D --defined-only "$lib/libhbmcheck.so" | awk '{print $NF}' | sed 's/@.*//' | sort -u >"$scratch/exported.txt"
-  grep -qx hbmcheck_curve_trace "$scratch/declared.txt" || wrong "hbmcheck_curve_trace is not seen in the header"
+  grep -qx hbmcheck_run "$scratch/declared.txt" || wrong "hbmcheck_run is not seen in the header"
   diff "$scratch/declared.txt" "$scratch/exported.txt" || wrong "< declared, not exported; > exported, not declared"
   if grep -v '^hbmcheck_' "$scratch/declared.txt"; then wrong "the functions above have another prefix"; fi
   echo "$(wc -l <"$scratch/exported.txt") functions"

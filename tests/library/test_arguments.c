@@ -1,4 +1,4 @@
-/* test_arguments.c - HBMCHECK_BAD_INPUT: nothing is written but NULL into the place of a handle. */
+/* test_arguments.c - HBMCHECK_BAD_INPUT: nothing is written but NULL into the place of a handle; what asks takes NULL. */
 #include "tests/library/case2.h"
 
 #define BAD(call) assert_int_equal((call), HBMCHECK_BAD_INPUT)
@@ -15,6 +15,7 @@ static void cases(CHECK_STATE)
 {
   const char *const set[] = {"hbm.harmonics=3", NULL};
   const size_t length = strlen(case2_text);
+  const double one[] = {1, NAN};
   char message[64] = "";
   hbmcheck_case *c;
   BAD(hbmcheck_case_read("x.yaml", 0, NULL, message, sizeof message, NULL));
@@ -26,115 +27,91 @@ static void cases(CHECK_STATE)
   BAD(hbmcheck_case_parse("x", case2_text, length, 0, NULL, NULL, 0, NULL));
   BAD_AND_NULL(c, hbmcheck_case_parse(NULL, case2_text, length, 0, NULL, NULL, 0, &c));
   BAD_AND_NULL(c, hbmcheck_case_parse("x", NULL, length, 0, NULL, NULL, 0, &c));
-  BAD_AND_NULL(c, hbmcheck_case_parse("x", NULL, 0, 0, NULL, NULL, 0, &c));
   BAD_AND_NULL(c, hbmcheck_case_parse("x", case2_text, length, -1, set, NULL, 0, &c));
   BAD_AND_NULL(c, hbmcheck_case_parse("x", case2_text, length, 1, NULL, NULL, 0, &c));
   BAD_AND_NULL(c, hbmcheck_case_parse("x", case2_text, length, 2, set, NULL, 0, &c));
   BAD_AND_NULL(c, hbmcheck_case_parse("x", case2_text, length, 1, (const char *[]){"hbm.harmonics=0x"}, NULL, 0, &c));
-}
-
-static void curves(CHECK_STATE)
-{
-  hbmcheck_case *c = CASE2("sweep.omega=3,6", "hbm.harmonics=3");
-  hbmcheck_curve *curve;
-  hbmcheck_solutions *at;
-  hbmcheck_solution s;
-  hbmcheck_special special;
-  hbmcheck_summary whole;
-  double X[8];
-  int n = -1;
-  BAD(hbmcheck_curve_trace(c, NULL, NULL));
-  BAD_AND_NULL(curve, hbmcheck_curve_trace(NULL, NULL, &curve));
-  assert_int_equal(hbmcheck_curve_trace(c, NULL, &curve), HBMCHECK_OK);
-  BAD(hbmcheck_curve_at(curve, 4, NULL));
-  BAD_AND_NULL(at, hbmcheck_curve_at(NULL, 4, &at));
-  BAD_AND_NULL(at, hbmcheck_curve_at(curve, 0, &at));
-  BAD_AND_NULL(at, hbmcheck_curve_at(curve, -4, &at));
-  BAD_AND_NULL(at, hbmcheck_curve_at(curve, NAN, &at));
-  BAD_AND_NULL(at, hbmcheck_curve_at(curve, INFINITY, &at));
-  BAD(hbmcheck_curve_specials(NULL, 1, &special, &n));
-  BAD(hbmcheck_curve_specials(curve, -1, &special, &n));
-  BAD(hbmcheck_curve_specials(curve, 1, NULL, &n));
-  BAD(hbmcheck_curve_specials(curve, 1, &special, NULL));
-  BAD(hbmcheck_curve_summary(NULL, &whole));
-  BAD(hbmcheck_curve_summary(curve, NULL));
-  const hbmcheck_solutions *points = hbmcheck_curve_points(curve);
-  const int count = hbmcheck_solutions_count(points);
-  BAD(hbmcheck_solutions_get(NULL, 0, &s));
-  BAD(hbmcheck_solutions_get(points, -1, &s));
-  BAD(hbmcheck_solutions_get(points, count, &s));
-  BAD(hbmcheck_solutions_get(points, 0, NULL));
-  BAD(hbmcheck_solutions_coefficients(NULL, 0, 8, X, &n));
-  BAD(hbmcheck_solutions_coefficients(points, -1, 8, X, &n));
-  BAD(hbmcheck_solutions_coefficients(points, count, 8, X, &n));
-  BAD(hbmcheck_solutions_coefficients(points, 0, -1, X, &n));
-  BAD(hbmcheck_solutions_coefficients(points, 0, 8, NULL, &n));
-  BAD(hbmcheck_solutions_coefficients(points, 0, 8, X, NULL));
-  assert_int_equal(n, -1);
-  X[3] = 77; /* room for three of seven */
-  assert_int_equal(hbmcheck_solutions_coefficients(points, 0, 3, X, &n), HBMCHECK_OK);
-  assert_int_equal(n, 7);
-  assert_true(X[3] == 77);
-  X[7] = 78; /* room for eight */
-  assert_int_equal(hbmcheck_solutions_coefficients(points, 0, 8, X, &n), HBMCHECK_OK);
-  assert_true(X[3] != 77 && X[7] == 78);
-  assert_int_equal(hbmcheck_solutions_coefficients(points, 0, 0, NULL, &n), HBMCHECK_OK);
-  hbmcheck_curve_free(curve);
+  c = CASE2(NULL);
+  BAD(hbmcheck_case_give(NULL, "compare.omega", 1, 1, one, NULL, 0));
+  BAD(hbmcheck_case_give(c, NULL, 1, 1, one, NULL, 0));
+  BAD(hbmcheck_case_give(c, "compare.omega", 0, 1, one, NULL, 0));
+  BAD(hbmcheck_case_give(c, "compare.omega", 1, 0, one, NULL, 0));
+  BAD(hbmcheck_case_give(c, "compare.omega", 1, 1, NULL, NULL, 0));
+  BAD(hbmcheck_case_give(c, "compare.omega", 1, 2, one, message, sizeof message)); /* NaN */
+  assert_string_not_equal(message, "");
   hbmcheck_case_free(c);
 }
 
-/* No frequencies are asked for without compare.omega in the case: the transient has none to choose from. */
 static void runs(CHECK_STATE)
 {
-  hbmcheck_case *c = CASE2("hbm.harmonics=3");
-  hbmcheck_transient *t;
-  hbmcheck_comparison *both;
-  hbmcheck_steady s;
-  hbmcheck_row row;
-  hbmcheck_gate gate;
-  double many[HBMCHECK_MAX_OMEGAS + 1], x[4];
-  int n = -1;
-  for (int i = 0; i <= HBMCHECK_MAX_OMEGAS; ++i) many[i] = 4;
-  BAD_AND_NULL(t, hbmcheck_transient_run(c, 0, NULL, NULL, &t));
+  hbmcheck_case *c = CASE2("hbm.harmonics=3", "sweep.omega=3,6");
+  const char *const none[] = {"--at=4", NULL};
+  hbmcheck_result *r;
+  BAD(hbmcheck_run(c, "frf", 0, NULL, NULL, NULL));
+  BAD_AND_NULL(r, hbmcheck_run(NULL, "frf", 0, NULL, NULL, &r));
+  BAD_AND_NULL(r, hbmcheck_run(c, NULL, 0, NULL, NULL, &r));
+  BAD_AND_NULL(r, hbmcheck_run(c, "study", 0, NULL, NULL, &r));
+  BAD_AND_NULL(r, hbmcheck_run(c, "frf", -1, NULL, NULL, &r));
+  BAD_AND_NULL(r, hbmcheck_run(c, "frf", 1, NULL, NULL, &r));
+  BAD_AND_NULL(r, hbmcheck_run(c, "frf", 2, none, NULL, &r));
+  /* In words; the exit code is the command's. */
   const struct {
-    const hbmcheck_case *c;
-    int n;
-    const double *omega;
-  } bad[] = {{NULL, 1, many},
-             {c, -1, many},
-             {c, HBMCHECK_MAX_OMEGAS + 1, many},
-             {c, 1, NULL},
-             {c, 1, (double[]){0}},
-             {c, 2, (double[]){4, -4}},
-             {c, 1, (double[]){NAN}},
-             {c, 1, (double[]){INFINITY}}};
+    const char *option, *words;
+  } bad[] = {{"at=4", "'at=4' is no option"},
+             {"--att=4", "unrecognized option '--att', did you mean"},
+             {"--at", "--at: a value is missing"},
+             {"--at=", "--at: '' is not a positive number"},
+             {"--at=4,x", "--at: 'x' is not a positive number"},
+             {"--contacts=yes", "--contacts takes no value"},
+             {"--plot=a.svg", "unrecognized option '--plot'"},
+             {"--format=csv", "unrecognized option '--format'"},
+             {"--response=y", "--response: the case has no `y`; expected x"},
+             {"--set=hbm.harmonics=0", "hbm.harmonics"}};
   for (size_t i = 0; i < sizeof bad / sizeof *bad; ++i) {
-    BAD_AND_NULL(t, hbmcheck_transient_run(bad[i].c, bad[i].n, bad[i].omega, NULL, &t));
-    BAD_AND_NULL(both, hbmcheck_comparison_run(bad[i].c, bad[i].n, bad[i].omega, NULL, &both));
+    BAD(RUN(c, "frf", NULL, &r, bad[i].option));
+    const char *said = hbmcheck_result_remark(r, 0);
+    if (!said || !strstr(said, bad[i].words)) fail_msg("'%s' does not say '%s'", said ? said : "", bad[i].words);
+    assert_null(hbmcheck_result_table(r, 0));
+    assert_in_range(hbmcheck_result_exit_code(r), 2, 64);
+    hbmcheck_result_free(r);
   }
-  BAD(hbmcheck_transient_run(c, 1, many, NULL, NULL));
-  BAD(hbmcheck_comparison_run(c, 1, many, NULL, NULL));
-  assert_int_equal(hbmcheck_transient_run(c, HBMCHECK_MAX_OMEGAS, many, NULL, &t), HBMCHECK_OK); /* all the same one */
-  assert_int_equal(hbmcheck_comparison_run(c, 1, many, NULL, &both), HBMCHECK_OK);
-  assert_int_equal(hbmcheck_transient_count(t), 1);
-  assert_int_equal(hbmcheck_comparison_count(both), 1);
-  BAD(hbmcheck_transient_get(NULL, 0, &s));
-  BAD(hbmcheck_transient_get(t, -1, &s));
-  BAD(hbmcheck_transient_get(t, 1, &s));
-  BAD(hbmcheck_transient_get(t, 0, NULL));
-  BAD(hbmcheck_transient_wave(NULL, 0, 4, x, &n));
-  BAD(hbmcheck_transient_wave(t, 1, 4, x, &n));
-  BAD(hbmcheck_transient_wave(t, 0, -1, x, &n));
-  BAD(hbmcheck_transient_wave(t, 0, 4, NULL, &n));
-  BAD(hbmcheck_transient_wave(t, 0, 4, x, NULL));
-  BAD(hbmcheck_comparison_get(NULL, 0, &row));
-  BAD(hbmcheck_comparison_get(both, -1, &row));
-  BAD(hbmcheck_comparison_get(both, 1, &row));
-  BAD(hbmcheck_comparison_get(both, 0, NULL));
-  BAD(hbmcheck_comparison_gate(NULL, &gate));
-  BAD(hbmcheck_comparison_gate(both, NULL));
-  hbmcheck_transient_free(t);
-  hbmcheck_comparison_free(both);
+  hbmcheck_case_free(c);
+}
+
+static void tables(CHECK_STATE)
+{
+  hbmcheck_case *c = CASE2("hbm.harmonics=3");
+  hbmcheck_result *r;
+  hbmcheck_column column = {.size = sizeof column};
+  double X[8] = {0};
+  assert_int_equal(RUN(c, "frf", NULL, &r, "--at", "4"), HBMCHECK_OK);
+  const hbmcheck_table *t = hbmcheck_result_table(r, 0);
+  assert_null(hbmcheck_result_table(r, -1));
+  assert_null(hbmcheck_result_table(r, 99));
+  assert_null(hbmcheck_result_remark(r, -1));
+  BAD(hbmcheck_table_column(t, -1, &column));
+  BAD(hbmcheck_table_column(t, 99, &column));
+  BAD(hbmcheck_table_column(t, 0, NULL));
+  column.size = 8; /* of a struct that is none */
+  BAD(hbmcheck_table_column(t, 0, &column));
+  assert_true(isnan(hbmcheck_table_number(t, 1, "omega")));
+  assert_true(isnan(hbmcheck_table_number(t, -1, "omega")));
+  assert_true(isnan(hbmcheck_table_number(t, 0, "omeg")));
+  assert_true(isnan(hbmcheck_table_number(t, 0, NULL)));
+  assert_true(isnan(hbmcheck_table_number(t, 0, "stable"))); /* a text */
+  assert_null(hbmcheck_table_text(t, 0, "omega"));
+  assert_null(hbmcheck_table_text(t, 7, "stable"));
+  assert_string_equal(hbmcheck_table_text(t, 0, "stable"), "yes");
+  assert_int_equal(hbmcheck_table_numbers(t, 0, "coefficients", 0, NULL), 7);
+  assert_int_equal(hbmcheck_table_numbers(t, 0, "coefficients", 8, NULL), 0);
+  assert_int_equal(hbmcheck_table_numbers(t, 0, "coefficients", -1, X), 0);
+  assert_int_equal(hbmcheck_table_numbers(t, -1, "coefficients", 8, X), 0);
+  assert_int_equal(hbmcheck_table_numbers(t, 0, "omega", 8, X), 0);
+  assert_int_equal(hbmcheck_table_numbers(t, 1, "coefficients", 8, X), 0);
+  assert_true(X[0] == 0);
+  assert_int_equal(hbmcheck_table_numbers(t, -1, "omega", 8, X), 1);
+  assert_true(X[0] == 4);
+  hbmcheck_result_free(r);
   hbmcheck_case_free(c);
 }
 
@@ -142,21 +119,17 @@ static void runs(CHECK_STATE)
 static void harmless(CHECK_STATE)
 {
   hbmcheck_case_free(NULL);
-  hbmcheck_solutions_free(NULL);
-  hbmcheck_curve_free(NULL);
-  hbmcheck_transient_free(NULL);
-  hbmcheck_comparison_free(NULL);
-  assert_null(hbmcheck_curve_points(NULL));
-  assert_int_equal(hbmcheck_solutions_count(NULL), 0);
-  assert_int_equal(hbmcheck_transient_count(NULL), 0);
-  assert_int_equal(hbmcheck_comparison_count(NULL), 0);
-  assert_int_equal(hbmcheck_comparison_exit_code(NULL), 3);
-  for (int v = -1; v < 64; ++v) {
-    assert_non_null(hbmcheck_status_text((hbmcheck_status)v));
-    assert_non_null(hbmcheck_contact_name((hbmcheck_contact)v));
-    assert_non_null(hbmcheck_verdict_name((hbmcheck_verdict)v));
-  }
-  assert_string_equal(hbmcheck_verdict_name(HBMCHECK_VERDICT_SOLVER_FAILED), "solver_failed");
+  hbmcheck_result_free(NULL);
+  assert_int_equal(hbmcheck_result_exit_code(NULL), 70);
+  assert_null(hbmcheck_result_remark(NULL, 0));
+  assert_null(hbmcheck_result_table(NULL, 0));
+  assert_null(hbmcheck_table_title(NULL));
+  assert_null(hbmcheck_table_remark(NULL, 0));
+  assert_int_equal(hbmcheck_table_rows(NULL), 0);
+  assert_null(hbmcheck_table_text(NULL, 0, "omega"));
+  assert_true(isnan(hbmcheck_table_number(NULL, 0, "omega")));
+  assert_int_equal(hbmcheck_table_numbers(NULL, 0, "omega", 0, NULL), 0);
+  for (int v = -1; v < 64; ++v) assert_non_null(hbmcheck_status_text((hbmcheck_status)v));
 }
 
-CHECK_TESTS("library.arguments", 300, cases, curves, runs, harmless)
+CHECK_TESTS("library.arguments", 300, cases, runs, tables, harmless)

@@ -27,55 +27,36 @@ static int listen(void *self, double done)
   return !interrupted;
 }
 
-typedef enum work { CURVE, TRANSIENT, COMPARISON } work;
-
-/* Do the work with that listener; what it found is counted and freed. */
-static hbmcheck_status run(work what, const hbmcheck_case *c, listener *l, int *found)
+/* Do the work with that listener; its rows are counted. */
+static hbmcheck_status run(const char *command, const hbmcheck_case *c, listener *l, int *found)
 {
-  const double omega[] = {6, 8};
-  const hbmcheck_monitor monitor = {listen, l};
-  hbmcheck_curve *curve = NULL;
-  hbmcheck_transient *t = NULL;
-  hbmcheck_comparison *both = NULL;
-  hbmcheck_status st;
+  const hbmcheck_monitor monitor = {sizeof monitor, listen, l};
+  hbmcheck_result *r;
   interrupted = 0;
-  switch (what) {
-  case CURVE: st = hbmcheck_curve_trace(c, &monitor, &curve); break;
-  case TRANSIENT: st = hbmcheck_transient_run(c, 2, omega, &monitor, &t); break;
-  default: st = hbmcheck_comparison_run(c, 2, omega, &monitor, &both); break;
+  const hbmcheck_status st = RUN(c, command, &monitor, &r, strcmp(command, "frf") ? "--at=6,8" : NULL);
+  assert_non_null(r);
+  *found = rows_of(r);
+  if (st == HBMCHECK_INTERRUPTED) {
+    assert_null(table_titled(r, "Gate"));
+    assert_int_equal(hbmcheck_result_exit_code(r), 3);
+    assert_non_null(hbmcheck_result_remark(r, 0));
   }
-  assert_true(curve || t || both);
-  *found = hbmcheck_solutions_count(hbmcheck_curve_points(curve)) + hbmcheck_transient_count(t) +
-           hbmcheck_comparison_count(both);
-  if (what == CURVE && st == HBMCHECK_INTERRUPTED) { /* what there is can be searched; there may be more */
-    hbmcheck_solutions *at;
-    assert_int_equal(hbmcheck_curve_at(curve, 3.01, &at), HBMCHECK_INTERRUPTED);
-    assert_non_null(at);
-    hbmcheck_solutions_free(at);
-  }
-  if (what == COMPARISON && st == HBMCHECK_INTERRUPTED) {
-    hbmcheck_gate gate;
-    assert_int_equal(hbmcheck_comparison_gate(both, &gate), HBMCHECK_INTERRUPTED);
-    assert_int_equal(hbmcheck_comparison_exit_code(both), 3);
-  }
-  hbmcheck_curve_free(curve);
-  hbmcheck_transient_free(t);
-  hbmcheck_comparison_free(both);
+  hbmcheck_result_free(r);
   return st;
 }
 
 /* At the first tick, at some, at the last. After 0 those that call each other may each ask once more: a handful. */
-static void stopped(work what, const char *name)
+static void stopped(const char *name)
 {
   hbmcheck_case *c = CASE2("hbm.harmonics=5");
   listener all = {.until = 0};
   int whole, found, before = 0;
-  assert_int_equal(run(what, c, &all, &whole), HBMCHECK_OK);
+  assert_int_equal(run(name, c, &all, &whole), HBMCHECK_OK);
   assert_true(all.heard > 8 && whole > 0);
-  if (what != TRANSIENT) CHECK_LE(0.5, all.highest, "%s says how far it is", name);
+  if (strcmp(name, "transient") != 0) CHECK_LE(0.5, all.highest, "%s says how far it is", name);
   for (int part = 0; part <= 4; ++part) {
     listener l = {.until = part == 0 ? 1 : all.heard * part / 4};
-    assert_int_equal(run(what, c, &l, &found), HBMCHECK_INTERRUPTED);
+    assert_int_equal(run(name, c, &l, &found), HBMCHECK_INTERRUPTED);
     CHECK_LE(l.after, 8, "%s, stopped at tick %d of %d", name, l.until, all.heard);
     assert_in_range(found, before, whole);
     before = found; /* the later, the more */
@@ -84,19 +65,20 @@ static void stopped(work what, const char *name)
   hbmcheck_case_free(c);
 }
 
-static void curve(CHECK_STATE) { stopped(CURVE, "curve"); }
+static void curve(CHECK_STATE) { stopped("frf"); }
 
-static void transient(CHECK_STATE) { stopped(TRANSIENT, "transient"); }
+static void transient(CHECK_STATE) { stopped("transient"); }
 
-static void comparison(CHECK_STATE) { stopped(COMPARISON, "comparison"); }
+static void comparison(CHECK_STATE) { stopped("compare"); }
 
 /* A monitor that has nothing to say is none. */
 static void silent(CHECK_STATE)
 {
-  const hbmcheck_monitor nobody = {NULL, NULL};
+  const hbmcheck_monitor nobody = {.size = sizeof nobody};
+  hbmcheck_result *r;
   hbmcheck_case *c = CASE2("hbm.harmonics=3", "sweep.omega=3,6");
-  CHECK_MADE(hbmcheck_curve, curve, hbmcheck_curve_trace(c, &nobody, &curve));
-  hbmcheck_curve_free(curve);
+  assert_int_equal(RUN(c, "frf", &nobody, &r, NULL), HBMCHECK_OK);
+  hbmcheck_result_free(r);
   hbmcheck_case_free(c);
 }
 

@@ -115,6 +115,8 @@ class Figures(Test):
         self.assertEqual(len(axes.get_lines()), 2)  # stable and unstable
         axes = model.compare([6, 8]).plot()
         self.assertEqual(len(axes.get_lines()[0].get_xdata()), 4)
+        axes = model.transient([6, 8]).plot()
+        self.assertEqual(sorted(w for line in axes.get_lines() for w in line.get_xdata()), [6, 8, 8, 8])
         three = model.verify([3.5, 4, 4.5], [1, 2, 3])
         self.assertIs(three.plot(axes), axes)
         self.assertEqual(axes.get_title(), three.cause)

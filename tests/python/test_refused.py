@@ -56,8 +56,8 @@ class Refused(Test):
             self.refuses("omega: shape (1, 2), expected one dimension", call, [[1, 2]])
             self.refuses("omega: not an array of real numbers", call, ["fast"])
         self.refuses("omega: empty", model.transient, [])
-        self.refuses("1025 of them, expected 1 to 1024", model.transient, np.linspace(3, 4, 1025))
-        self.refuses("the case has no compare.omega", hbmcheck.Model(1, 0.1, 1, forcing=1, sweep=(1, 2)).transient)
+        self.refuses("--at takes at most 1024 numbers", model.transient, np.linspace(3, 4, 1025))
+        self.refuses("give --at LIST, or compare.omega in the case", hbmcheck.Model(1, 0.1, 1, forcing=1, sweep=(1, 2)).transient)
 
     def test_curves_to_verify(self):
         model, omega = hbmcheck.Model.from_yaml(CASE2), np.array([3.5, 4, 4.5])
@@ -65,10 +65,18 @@ class Refused(Test):
         self.refuses("amplitude[1] = nan", model.verify, omega, [1, np.nan, 2])
         self.refuses("value[1] = -1 is too small, expected a number >= 0", model.verify, omega, [1, -1, 2])
         self.refuses("2 points, expected at least 3", model.verify, omega[:2], [1, 2])
-        self.refuses("quantity 'amplitud' is unknown", model.verify, omega, omega, quantity="amplitud")
-        self.refuses("noise = 2 is no scatter", model.verify, omega, omega, noise=2)
+        self.refuses("--quantity: 'amplitud' is unknown", model.verify, omega, omega, quantity="amplitud")
+        self.refuses("'2.0' is no scatter", model.verify, omega, omega, noise=2)
         self.refuses("response: the case has no 'y', expected one of x", model.verify, omega, omega, response="y")
         self.refuses("response: the case has no 1", model.verify, omega, omega, response=1)
+        self.refuses("0 points, expected at least 3", model.verify, [], [])
+
+    def test_options_of_commands(self):
+        model = hbmcheck.Model.from_yaml(CASE2)
+        self.refuses("unrecognized option '--att', did you mean", model.frf, att=3)
+        self.refuses("--count: 'many' is not an integer", model.run, "modes", count="many")
+        self.refuses("", model.run, "study")
+        self.refuses("a case from memory is not reduced", hbmcheck.Model(1, 0.1, 1, forcing=1, sweep=(1, 2)).reduce, "/tmp/x")
 
     def test_motions_of_contacts(self):
         model = hbmcheck.Model.from_yaml(CHAIN)
@@ -76,8 +84,8 @@ class Refused(Test):
         self.refuses("u[1] = inf", model.contact_force, [1, np.inf, 2])
         self.refuses("contact: the case has no 'wall', expected one of ground, between, stop", model.contact_force, [1],
                      contact="wall")
-        self.refuses("contact stop does not move along", model.contact_force, [0, 1, 0], contact="stop")
-        self.refuses("contact ground does not move along", model.contact_force, u2=[0, 1, 0], contact="ground")
+        self.refuses("contact stop has no tangent", model.contact_force, [0, 1, 0], contact="stop")
+        self.refuses("contact ground has no second tangent", model.contact_force, u2=[0, 1, 0], contact="ground")
         self.refuses("samples: 4 for 2 harmonics, expected 5", model.contact_force, [0, 1, 0, 1, 0], samples=4)
         self.refuses("samples: 0", model.contact_force, [0, 1, 0], samples=0)
         self.refuses("201 harmonics, expected at most 200", model.contact_force, np.zeros(403))
@@ -90,7 +98,8 @@ class Refused(Test):
         model.close()
         model.close()
         for call in (model.frf, lambda: model.transient(6), lambda: model.compare(6),
-                     lambda: model.verify([3, 4, 5], [1, 1, 1]), lambda: model.contact_force([0, 1, 0])):
+                     lambda: model.verify([3, 4, 5], [1, 1, 1]), lambda: model.contact_force([0, 1, 0]),
+                     model.modes):
             self.refuses("the model is closed", call, kind=ValueError)
         self.assertEqual(len(curve.at(8)), 3)  # it outlives the model
         with hbmcheck.Model.from_yaml(CASE2) as model:

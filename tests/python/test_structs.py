@@ -39,14 +39,14 @@ class Structs(Test):
             for field, _ in kind._fields_:
                 asked[f"offsetof({c}, {field})"] = getattr(kind, field).offset
                 asked[f"sizeof((({c} *)0)->{field})"] = getattr(kind, field).size
-        self.assertGreater(len(asked), 200)
+        self.assertGreater(len(asked), 15)
         self.assertEqual(dict(zip(asked, by_the_compiler(asked))), asked)
 
     def test_codes(self):
         names = "OK BAD_INPUT NO_MEMORY INTERRUPTED".split()
         self.assertEqual(by_the_compiler([f"HBMCHECK_{n}" for n in names]), [getattr(_library, n) for n in names])
-        kinds = "TURNING_POINT PERIOD_DOUBLING CONTACT_CHANGE NEIMARK_SACKER".split()
-        self.assertEqual(by_the_compiler([f"HBMCHECK_SPECIAL_{k}" for k in kinds]), [0, 1, 2, 3])
+        kinds = "TEXT INTEGER REAL SERIES".split()
+        self.assertEqual(by_the_compiler([f"HBMCHECK_{k}" for k in kinds]), [getattr(_structs, k) for k in kinds])
 
     def test_functions_take_what_the_header_says(self):
         """As many arguments as there."""

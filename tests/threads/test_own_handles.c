@@ -7,7 +7,7 @@
 
 #include "interfaces/library/hbmcheck.h"
 
-enum { THREADS = 4, ROUNDS = 2, MOST_NUMBERS = 1 << 16 };
+enum { THREADS = 4, ROUNDS = 2, MOST_NUMBERS = 1 << 16, FEWEST = 12 /* of modes */ };
 
 /* Every number of a result, in order; NaN is a number like any other here: only bits count. */
 typedef struct record {
@@ -46,131 +46,70 @@ static hbmcheck_case *case2(const char *first, const char *second)
   return c;
 }
 
-static void put_solution(record *r, const hbmcheck_solutions *list, int k)
+/* Every number of every table of that run, texts by their letters. */
+static void run(record *r, hbmcheck_case *c, const char *command, int n, const char *const *options)
 {
-  hbmcheck_solution s;
-  double X[64];
-  int n = 0;
-  hbmcheck_solutions_get(list, k, &s);
-  hbmcheck_solutions_coefficients(list, k, 64, X, &n);
-  put_all(r, 5, (double[]){s.omega, s.amplitude, s.rms, s.residual, s.multiplier});
-  put_all(r, 3, (double[]){s.branch, s.iterations, s.stable});
-  put_all(r, n < 64 ? n : 64, X);
-}
-
-/* c, and what is found, are freed. */
-static void trace(record *r, hbmcheck_case *c)
-{
-  hbmcheck_curve *curve = NULL;
-  hbmcheck_special specials[16];
-  hbmcheck_summary whole = {0};
-  int n = 0;
-  hbmcheck_status st = hbmcheck_curve_trace(c, NULL, &curve); /* stability: eigenvalues by GSL */
-  if (st == HBMCHECK_OK) st = hbmcheck_curve_specials(curve, 16, specials, &n);
-  if (st == HBMCHECK_OK) st = hbmcheck_curve_summary(curve, &whole);
-  put(r, st);
-  put_all(r, 3, (double[]){whole.turning_points, (double)whole.evaluations, whole.peak_amplitude});
-  const hbmcheck_solutions *points = hbmcheck_curve_points(curve);
-  for (int k = 0; k < hbmcheck_solutions_count(points); ++k) put_solution(r, points, k);
-  for (int i = 0; i < n && i < 16; ++i) put_all(r, 2, (double[]){specials[i].omega, specials[i].amplitude});
-  hbmcheck_curve_free(curve);
+  hbmcheck_result *found = NULL;
+  const hbmcheck_table *t;
+  double series[4096];
+  put(r, hbmcheck_run(c, command, n, options, NULL, &found));
+  put(r, hbmcheck_result_exit_code(found));
+  for (int i = 0; (t = hbmcheck_result_table(found, i)); ++i)
+    for (int row = 0; row < hbmcheck_table_rows(t); ++row) {
+      hbmcheck_column column = {.size = sizeof column};
+      for (int j = 0; hbmcheck_table_column(t, j, &column) == HBMCHECK_OK; ++j) {
+        const char *text = hbmcheck_table_text(t, row, column.name);
+        for (const char *at = text ? text : ""; *at; ++at) put(r, *at);
+        if (column.kind != HBMCHECK_SERIES) put(r, hbmcheck_table_number(t, row, column.name));
+        else put_all(r, hbmcheck_table_numbers(t, row, column.name, 4096, series), series);
+      }
+    }
+  hbmcheck_result_free(found);
   hbmcheck_case_free(c);
 }
 
-/* c is freed. */
-static void settle(record *r, hbmcheck_case *c)
-{
-  const double omega = 7;
-  hbmcheck_transient *t = NULL;
-  hbmcheck_steady s;
-  double wave[1024];
-  int n = 0;
-  hbmcheck_status st = hbmcheck_transient_run(c, 1, &omega, NULL, &t);
-  if (st == HBMCHECK_OK) st = hbmcheck_transient_get(t, 0, &s);
-  if (st == HBMCHECK_OK) st = hbmcheck_transient_wave(t, 0, 1024, wave, &n);
-  put(r, st == HBMCHECK_OK ? s.status : st);
-  if (st == HBMCHECK_OK) {
-    put_all(r, 7, (double[]){s.amplitude, s.max, s.min, s.rms, s.mean, s.harmonic_1, s.closure});
-    put_all(r, 4, (double[]){s.multiplier, s.periods, (double)s.steps, s.from_regularisation});
-    put_all(r, n < 1024 ? n : 1024, wave);
-  }
-  hbmcheck_transient_free(t);
-  hbmcheck_case_free(c);
-}
+#define RUN(r, c, command, ...)                                                                                        \
+  run(r, c, command, sizeof((const char *[]){__VA_ARGS__}) / sizeof(char *), (const char *const[]){__VA_ARGS__})
 
-static void trace_exact(record *r) { trace(r, case2(NULL, NULL)); }
+static void trace_exact(record *r) { RUN(r, case2("sweep.omega=3,7", NULL), "frf", "--contacts"); }
 
 static void trace_sampled(record *r) /* the one with FFTW's planner */
 {
-  trace(r, case2("hbm.force=sampled", "sweep.omega=4,7"));
+  RUN(r, case2("hbm.force=sampled", "sweep.omega=4,7"), "frf", "--contacts");
 }
 
 static void settle_regularised(record *r) /* what is wanted is many steps, not good ones */
 {
-  settle(r, case2("transient.regularisation=1e-2", "transient.tolerance=1e-6"));
+  RUN(r, case2("transient.regularisation=1e-2", "transient.tolerance=1e-6"), "transient", "--at=5,7");
 }
 
-static void settle_exact(record *r) { settle(r, case2("transient.law=exact", "transient.steady_state=march")); }
-
-static void compare(record *r)
+static void settle_exact(record *r)
 {
-  hbmcheck_case *c = case2(NULL, NULL);
-  hbmcheck_comparison *both = NULL;
-  put(r, hbmcheck_comparison_run(c, 0, NULL, NULL, &both));
-  const int n = hbmcheck_comparison_count(both);
-  put(r, n);
-  for (int k = 0; k < n; ++k) {
-    hbmcheck_row row;
-    hbmcheck_comparison_get(both, k, &row);
-    put_all(r, 4, (double[]){row.verdict, row.hbm_amplitude, row.orbit_error, row.multiplier});
-    put_all(r, 4, (double[]){row.amplitude_error, row.harmonic_1_error, row.mean_error, row.waveform_error});
-    put_all(r, 3, (double[]){row.transient_amplitude, row.orbit_amplitude, row.from_aliasing});
-    put_all(r, 4, (double[]){row.from_truncation, row.from_regularisation, row.from_integration, row.from_settling});
-  }
-  hbmcheck_comparison_free(both);
-  hbmcheck_case_free(c);
+  RUN(r, case2("transient.law=exact", "transient.steady_state=march"), "transient", "--at=5,7");
 }
+
+static void compare(record *r) { RUN(r, case2(NULL, NULL), "compare", "--contacts"); }
 
 /* Points that lie on nothing, so that every mistake is tried. */
 static void verify(record *r)
 {
-  const double omega[] = {4, 4.5, 5, 5.5, 6, 7}, value[] = {4, 5, 7, 8, 9, 12};
-  const hbmcheck_foreign theirs = {.quantity = "amplitude", .n = 6, .omega = omega, .value = value};
+  const double points[] = {4, 4.5, 5, 5.5, 6, 7, 4, 5, 7, 8, 9, 12};
   hbmcheck_case *c = case2(NULL, NULL);
-  hbmcheck_verification *v = NULL;
-  put(r, hbmcheck_verification_run(c, &theirs, NULL, NULL, 0, &v));
-  put_all(r, 2, (double[]){hbmcheck_verification_count(v), hbmcheck_verification_hypotheses(v)});
-  for (int k = 0; k < hbmcheck_verification_count(v); ++k) {
-    hbmcheck_point p;
-    hbmcheck_verification_get(v, k, &p);
-    put_all(r, 4, (double[]){p.nearest, p.error, p.verdict, p.branch});
-  }
-  for (int k = 0; k < hbmcheck_verification_hypotheses(v); ++k) {
-    hbmcheck_hypothesis h;
-    hbmcheck_verification_hypothesis(v, k, &h);
-    put_all(r, 4, (double[]){h.distance, h.omega_factor, h.value_factor, h.samples});
-  }
-  hbmcheck_verification_free(v);
-  hbmcheck_case_free(c);
+  hbmcheck_case_give(c, "against", 2, 6, points, NULL, 0);
+  RUN(r, c, "verify", "--quantity=amplitude");
 }
+
+static void modes(record *r) { RUN(r, case2(NULL, NULL), "modes", "--set=title=threads"); }
 
 /* One contact, exact and by samples: the latter make and free plans of FFTW. */
 static void force(record *r)
 {
-  enum { H = 9, LENGTH = 2 * H + 1 };
-  const double u[LENGTH] = {0, 4, 1, 0.5}, v[LENGTH] = {0.2, 3, 0, 1};
-  double T[LENGTH], N[LENGTH];
-  hbmcheck_case *c = case2(NULL, NULL);
-  for (int samples = 0; samples <= 128; samples += 64) {
-    put(r, hbmcheck_contact_force(c, 0, H, u, NULL, v, samples, T, NULL, N));
-    put_all(r, LENGTH, T);
-    put_all(r, LENGTH, N);
-  }
-  hbmcheck_case_free(c);
+  RUN(r, case2(NULL, NULL), "contact", "--contact=0", "--motion-u=0,4,1,0.5,0", "--motion-v=0.2,3,0,1,0",
+      "--samples=64,128");
 }
 
-static void (*const jobs[])(record *) = {trace_exact, trace_sampled, settle_regularised, settle_exact, compare,
-                                         verify,      force};
+static void (*const jobs[])(record *) = {trace_exact, trace_sampled, settle_regularised, settle_exact, compare, verify,
+                                         force,       modes};
 enum { JOBS = sizeof jobs / sizeof *jobs };
 
 static record alone[JOBS]; /* written before the threads start, read by them */
@@ -197,12 +136,12 @@ static void *work(void *self)
 }
 
 /* What is compared must be results: each job's first number is its status, and a failure would repeat itself
- * faithfully. A comparison has 15 numbers a row. */
+ * faithfully. */
 static int run_alone(CHECK_STATE)
 {
   for (int j = 0; j < JOBS; ++j) {
     jobs[j](&alone[j]);
-    if (alone[j].v[0] != HBMCHECK_OK || alone[j].n < 2 + 2 * 15 || alone[j].n > MOST_NUMBERS) {
+    if (alone[j].v[0] != HBMCHECK_OK || alone[j].n < FEWEST || alone[j].n > MOST_NUMBERS) {
       print_error("job %d alone: status %g, %d numbers\n", j, alone[j].v[0], alone[j].n);
       return -1;
     }

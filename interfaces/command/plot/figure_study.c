@@ -33,8 +33,8 @@ typedef struct chart {
 
 static bool is_number_column(rows_kind kind, unsigned extra, const char *name)
 {
-  int n;
-  const table_column *columns = rows_columns(kind, extra, &n);
+  table_column columns[ROWS_MOST];
+  const int n = rows_columns(kind, extra, columns);
   for (int i = 0; i < n; ++i)
     if (!strcmp(columns[i].name, name)) return columns[i].kind != TABLE_TEXT;
   return false;
@@ -42,8 +42,8 @@ static bool is_number_column(rows_kind kind, unsigned extra, const char *name)
 
 static void name_columns(plot_order *p, rows_kind kind, unsigned extra)
 {
-  int n;
-  const table_column *columns = rows_columns(kind, extra, &n);
+  table_column columns[ROWS_MOST];
+  const int n = rows_columns(kind, extra, columns);
   for (int i = 0; i < n; ++i) {
     size_t used = strlen(p->why);
     if (columns[i].kind != TABLE_TEXT && used + 48 < sizeof p->why)

@@ -4,6 +4,7 @@
 #include <stdarg.h>
 #include <string.h>
 
+#include "interfaces/command/report/parts.h"
 #include "model/casefile/case_file.h"
 
 enum { DECADES = 12, JSON_DIGITS = 12 };
@@ -107,9 +108,9 @@ static bool is_among(const char *name, const char *const *list)
 void html_rows(FILE *to, const char *caption, rows_kind kind, unsigned extra, int n, const void *rows,
                const char *const *without)
 {
-  int n_columns;
   const char *heads[ROWS_MOST];
-  const table_column *columns = rows_columns(kind, extra, &n_columns);
+  table_column columns[ROWS_MOST];
+  const int n_columns = rows_columns(kind, extra, columns);
   for (int j = 0; j < n_columns; ++j) heads[j] = is_among(columns[j].name, without) ? NULL : columns[j].name;
   html_table(to, caption, n_columns, heads);
   for (int i = 0; i < n; ++i) {
@@ -127,6 +128,27 @@ void html_rows(FILE *to, const char *caption, rows_kind kind, unsigned extra, in
     html_row_end(to);
   }
   html_table_end(to);
+}
+
+static json_t *json_of(const row_cell *c)
+{
+  if (!c->there) return json_null();
+  if (c->kind == TABLE_TEXT) return json_string(c->as.text);
+  return c->kind == TABLE_INTEGER ? json_integer(c->as.integer) : json_finite(c->as.real);
+}
+
+void html_append_row(json_t *to, rows_kind kind, const void *row, const char *const *names)
+{
+  table_column columns[ROWS_MOST];
+  row_cell cells[ROWS_MOST];
+  const int n = rows_columns(kind, 0, columns);
+  rows_cells(kind, row, 0, cells);
+  for (int j = 0; j < n; ++j) {
+    if (!is_among(columns[j].name, names)) continue;
+    json_t *list = json_object_get(to, columns[j].name);
+    if (!list) json_object_set_new(to, columns[j].name, list = json_array());
+    json_array_append_new(list, json_of(&cells[j]));
+  }
 }
 
 hc_status html_json(FILE *to, const json_t *value)

@@ -31,5 +31,8 @@ void html_table_end(FILE *to);
 void html_rows(FILE *to, const char *caption, rows_kind kind, unsigned extra, int n, const void *rows,
                const char *const *without);
 
+/* Columns of a row by their names (ending in NULL), each value appended to the list of that name in *to; null: none. */
+void html_append_row(json_t *to, rows_kind kind, const void *row, const char *const *names);
+
 /* JSON that may stand in a script element: no "<" in it. HC_NO_MEMORY, HC_OK. */
 hc_status html_json(FILE *to, const json_t *value);

@@ -2,7 +2,7 @@
  * response.js (section 2), errors.js (3 and 4), structure.js (5 of structures), aliasing.js and aliasing_plots.js (5
  * of the others), selftest.js and start.js. They read the data block:
  *   cycles    the sweep is in cycles: so are all axes and words
- *   response  {curve, turned: columns omega, amplitude, harmonic_1, mean, mean_free, branch, stable (1, 0, -1),
+ *   response  {curve, turned: columns omega, amplitude, harmonic_1, mean, mean_free, branch, stable (yes, no, unknown),
  *             contact; mean_kept; transient, specials: rows}
  *   structure null, or {names, responses, dofs, contacts, solutions}: see structure.h
  *   budget    rows {omega, branch, response (0 where it is not there), a part each}

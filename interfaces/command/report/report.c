@@ -4,6 +4,7 @@
 #include "compare/motion.h"
 #include "compare/output/rows.h"
 #include "compare/study/scene_solvers.h"
+#include "interfaces/command/report/html.h"
 #include "interfaces/command/report/parts.h"
 #include "model/casefile/structure.h"
 
@@ -17,25 +18,8 @@ enum { CURVE_MOST_RESPONSES = 12 };
 static const double shorter_steps = 0.35;
 enum { MANY_COORDINATES = 50 };
 
-static void append(json_t *columns, const char *name, json_t *value)
-{
-  json_t *list = json_object_get(columns, name);
-  if (!list) json_object_set_new(columns, name, list = json_array());
-  json_array_append_new(list, value);
-}
-
-static void append_point(json_t *columns, const response_row *r)
-{
-  int stable = r->stability_known ? hbm_stability_verdict(&r->stability) : 0;
-  append(columns, "omega", json_finite(r->point.omega));
-  append(columns, "amplitude", json_finite(r->measures.amplitude));
-  append(columns, "harmonic_1", json_finite(r->measures.harmonic_1));
-  append(columns, "mean", json_finite(r->measures.mean));
-  append(columns, "mean_free", json_integer(r->measures.contact.free_sliders > 0));
-  append(columns, "branch", json_integer(r->point.branch));
-  append(columns, "stable", json_integer(stable));
-  append(columns, "contact", json_string(contact_regime_name(r->measures.contact.regime)));
-}
+static const char *const point_columns[] = {"omega",  "amplitude", "harmonic_1", "mean", "mean_free",
+                                            "branch", "stable",    "contact",    NULL};
 
 /* The curve of sc over the comparison's frequencies, columns[n] of n responses. Without specials it is of another scene
  * than the comparison. */
@@ -59,9 +43,9 @@ static hc_status append_curve(const scene *sc, const comparison *c, const hc_mon
   for (int k = 0; s && k < curve->n; ++k) {
     response_row row;
     if (response_row_of(s, curve, k, &row) != HC_OK) continue;
-    append_point(columns[0], &row);
+    html_append_row(columns[0], ROWS_FRF, &row, point_columns);
     for (int r = 1; r < n; ++r)
-      if (response_row_turn(s, curve, k, r, &row) == HC_OK) append_point(columns[r], &row);
+      if (response_row_turn(s, curve, k, r, &row) == HC_OK) html_append_row(columns[r], ROWS_FRF, &row, point_columns);
   }
   if (s && specials) {
     hbm_special *special;

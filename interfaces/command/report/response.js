@@ -20,8 +20,8 @@ const drawn = v => (v === null ? NaN : !isLogarithmic() ? v : v === 0 ? NaN : Ma
 
 /* What each point of a curve is drawn as. */
 function kindsOf(curve, q) {
-  const kinds = {1: 'stable', 0: 'unknown', '-1': 'unstable'};
-  return (curve.stable || []).map((s, i) => (q === 'mean' && curve.mean_free[i] ? 'open' : kinds[s]));
+  const kinds = {yes: 'stable', unknown: 'unknown', no: 'unstable'};
+  return (curve.stable || []).map((s, i) => (q === 'mean' && curve.mean_free[i] === 'yes' ? 'open' : kinds[s]));
 }
 
 /* The points of a curve that are drawn as `wanted` (null: all), in the curve's order; a gap (NaN) between runs, and a

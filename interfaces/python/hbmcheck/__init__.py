@@ -9,14 +9,16 @@ friction and gap contacts, and another program's curve held against both.
     model.compare([6, 8])              both, with verdicts
     model.verify(omega, amplitude)     a curve of your own, point by point, and the likely cause where it is off
     model.contact_force(u, v)          Fourier coefficients of one contact's forces
+    model.modes(), .advise(), .prove(), .gate(), .reduce(folder): as the commands of these names
+    model.replace(hbm={"harmonics": 9})    another model, of other settings
 
 The equations are those of interfaces/library/hbmcheck.h. Units: any consistent set; omega is in rad per unit time.
 """
 from ._errors import BadInput, Error, Interrupted, MissingFile, Stopped
 from ._library import library_version
 from .model import Model
-from .results import Comparison, ContactForce, Curve, Solutions, Transient, Verification
+from .results import Comparison, ContactForce, Contacts, Curve, Solutions, Table, Transient, Verification
 
 __version__ = "1.0.0"
-__all__ = ["BadInput", "Comparison", "ContactForce", "Curve", "Error", "Interrupted", "MissingFile", "Model", "Solutions",
-           "Stopped", "Transient", "Verification", "library_version"]
+__all__ = ["BadInput", "Comparison", "ContactForce", "Contacts", "Curve", "Error", "Interrupted", "MissingFile", "Model", "Solutions",
+           "Stopped", "Table", "Transient", "Verification", "library_version"]

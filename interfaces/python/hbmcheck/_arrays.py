@@ -1,9 +1,7 @@
-"""Between NumPy and the library: what callers hand in as arrays of double, rows of structs as columns."""
-import ctypes
-
+"""What callers hand in, as arrays of double."""
 import numpy as np
 
-from ._library import BadInput, check, lib
+from ._errors import BadInput
 
 
 def real(name, values):
@@ -40,36 +38,3 @@ def omegas(name, values):
         at = int(found.argmin())
         raise BadInput(f"{name}[{at}] = {found[at]}, expected omega > 0")
     return found
-
-
-def pointer(values):
-    """Of a contiguous array of double; NULL for None."""
-    return None if values is None else values.ctypes.data_as(ctypes.POINTER(ctypes.c_double))
-
-
-def rows(kind, n, get):
-    """n structs of that kind, each filled by get(k, address), as {field: array [n]}."""
-    table = (kind * n)()
-    start, size = ctypes.addressof(table), ctypes.sizeof(kind)
-    for k in range(n):
-        check(get(k, start + k * size))
-    found = np.frombuffer(table, dtype=np.dtype(kind), count=n) if n else np.empty(0, dtype=np.dtype(kind))
-    return {name: np.ascontiguousarray(found[name]) for name in found.dtype.names}
-
-
-def words(codes, name_of):
-    """Codes as an array of their words, str."""
-    known = {int(c): name_of(int(c)).decode() for c in np.unique(codes)}
-    return np.array([known[int(c)] for c in codes], dtype=str)
-
-
-def contact_words(codes):
-    return words(codes, lib.contact_name)
-
-
-def verdict_words(codes):
-    return words(codes, lib.verdict_name)
-
-
-def status_words(codes):
-    return words(codes, lib.status_text)

@@ -31,7 +31,7 @@ class Watch:
             raise TypeError(f"progress: {type(progress).__name__} is not callable, expected a function of one number")
         self._progress, self._raised = progress, None
         self._handlers, self._waiting = {}, []
-        self._keep = structs.Monitor(structs.TICK(self._tick), None)
+        self._keep = structs.sized(structs.Monitor, structs.TICK(self._tick), None)
         self.monitor = byref(self._keep)
 
     def __enter__(self):

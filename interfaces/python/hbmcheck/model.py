@@ -8,15 +8,14 @@ from typing import Any, Callable, Mapping, Optional, Sequence, Union
 
 import numpy as np
 
-from . import _structs as structs
-from ._arrays import finite, omegas, pointer
+from ._arrays import finite, omegas
 from ._compose import case_text
 from ._errors import MissingFile
 from ._library import BAD_INPUT, BadInput, check, lib
 from ._monitor import Watch
 from ._owner import Owner
-from .results import (Comparison, ContactForce, Curve, Solutions, Transient, Verification, comparison_of, solution_columns,
-                      transient_of, verification_of)
+from ._tables import ask, run
+from .results import Comparison, ContactForce, Contacts, Curve, Solutions, Table, Transient, Verification, place
 
 Progress = Callable[[Optional[float]], Any]
 MESSAGE = 2048  # holds any
@@ -24,16 +23,23 @@ SHOWN = 6  # names in repr()
 SECTIONS = ("title", "units", "hbm", "transient", "compare", "gate")  # of a case file, beside those that have a name here
 
 
+def _value(v):
+    """As on the command line: the shortest decimal that reads as the same double."""
+    if isinstance(v, (bool, np.bool_)):
+        return "true" if v else "false"
+    if isinstance(v, (float, np.floating)):
+        return repr(float(v))
+    return ",".join(map(_value, v)) if isinstance(v, (list, tuple, np.ndarray)) else str(v)
+
+
+def _pairs(columns, of, n):
+    """Cosines and sines of the harmonics 1..n in these rows; zeros without rows."""
+    return [columns[part][of][1:n + 1] if of.any() else np.zeros(n) for part in ("cos", "sin")]
+
+
 def _assignments(settings):
     """{"hbm.harmonics": 10, "hbm.static": False} as PATH=VALUE."""
-    def value(v):
-        if isinstance(v, (bool, np.bool_)):
-            return "true" if v else "false"
-        if isinstance(v, (float, np.floating)):
-            return repr(float(v))
-        return ",".join(map(value, v)) if isinstance(v, (list, tuple, np.ndarray)) else str(v)
-
-    listed = [f"{path}={value(v)}".encode() for path, v in (settings or {}).items()]
+    listed = [f"{path}={_value(v)}".encode() for path, v in (settings or {}).items()]
     return len(listed), (ctypes.c_char_p * max(len(listed), 1))(*listed)
 
 
@@ -52,12 +58,6 @@ def _listed(what, names):
     """3 contacts (a, b, c)."""
     shown = ", ".join(names[:SHOWN]) + (", ..." if len(names) > SHOWN else "")
     return f"{len(names)} {what}{'' if len(names) == 1 else 's'}" + (f" ({shown})" if names else "")
-
-
-def _name(call, case, number):
-    text = ctypes.create_string_buffer(512)
-    check(call(case, number, text, 512))
-    return text.value.decode()
 
 
 class Model:
@@ -119,8 +119,10 @@ class Model:
 
     def _own(self, case):
         self._owner = Owner(case, lib.case_free, "the model")
-        self.responses: list[str] = [_name(lib.case_response_name, case, r) for r in range(lib.case_responses(case))]
-        self.contacts: list[str] = [_name(lib.case_contact_name, case, j) for j in range(lib.case_contacts(case))]
+        tables = {title: columns for title, columns, *_ in ask(case, "names").tables}
+        self.responses: list[str] = tables["Responses"]["response"].tolist()
+        self.contacts: list[str] = tables["Contacts"]["name"].tolist()
+        self._in_cycles = bool(tables["Case"]["in_cycles"][0])
 
     def close(self) -> None:
         """Free it now; ValueError of every use afterwards. Without, it is freed with the last reference."""
@@ -135,56 +137,88 @@ class Model:
     def __exit__(self, *_: Any) -> None:
         self.close()
 
-    def frf(self, at: Any = None, progress: Optional[Progress] = None, contacts: bool = False) -> Union[Curve, Solutions]:
-        """Response curve of harmonic balance over the sweep, past turning points, with stability; or, at: a number or
-        [n] [rad/time], every solution on it there. Curve.at asks for more of them without following the curve again.
+    def replace(self, set: Optional[Mapping[str, Any]] = None, *, sweep: Optional[Sequence[float]] = None, **sections: Any) -> Model:
+        """A model that differs from this one in these fields: replace({"hbm.harmonics": 20}), or by sections, as of a
+        case file: replace(hbm={"harmonics": 20}, sweep=(3, 9)). Fields that are lists are replaced whole."""
+        changed = dict(set or {})
+        if sweep is not None:
+            changed["sweep.omega"] = [float(w) for w in sweep]
+        for section, fields in sections.items():
+            if not hasattr(fields, "items"):
+                raise BadInput(f"{section}: {type(fields).__name__}, expected a dictionary of the case file's fields")
+            changed.update({f"{section}.{field}": value for field, value in fields.items()})
+        make, (of, before, *name) = self._made
+        return make(of, {**(before or {}), **changed}, *name)
 
-        contacts: with a table of what each contact does in each solution, .contacts.
+    # ---- commands ----
+
+    def run(self, command: str, progress: Optional[Progress] = None, **options: Any) -> Table:
+        """Any command of `hbmcheck` on a case, by name, with its options, contacts=True, at=[6, 8], error=1e-3 (with _ for
+        -): the first table that it writes; the others are its .tables. None and False: not given.
+
         progress: called with the fraction done, 0..1, or None; its answer False stops. Stopped (KeyboardInterrupt): the
-        curve ends before the sweep does; .result is what was found."""
-        watch, place = Watch(progress), ctypes.c_void_p()
-        with self._owner as case, watch:
-            status = lib.curve_trace(case, watch.monitor, ctypes.byref(place))
-        curve = None
-        if place:
-            owner = Owner(place.value, lib.curve_free, "the curve")
-            curve = Curve(owner, solution_columns(lib.curve_points(place), self.responses), self.responses, self.contacts,
-                          contacts and at is None)
-        watch.check(status, result=curve)
-        return curve if at is None else curve.at(at, contacts)
+        work ended early; .result is what was found."""
+        return self._run(command, Table, options, progress)
 
-    def _run(self, start, read, free, omega, contacts, progress):
-        """A run of the library at omega [n], None: those of the case; its result by read(handle, responses, contacts)."""
-        at = None if omega is None else omegas("omega", omega)
-        if at is not None and len(at) == 0:
-            raise BadInput("omega: empty, expected at least one")
-        watch, place = Watch(progress), ctypes.c_void_p()
+    def _run(self, command, kind, options, progress, contacts=False, arrays=None):
+        listed, watch, message = self._options({**options, "contacts": contacts}), Watch(progress), ctypes.create_string_buffer(MESSAGE)
         with self._owner as case, watch:
-            lib.case_watch_contacts(case, bool(contacts))
-            status = start(case, 0 if at is None else len(at), pointer(at), watch.monitor, ctypes.byref(place))
-        try:
-            result = read(place, self.responses, self.contacts if contacts else None) if place else None
-        finally:
-            free(place)
-        words = ""
-        if status == BAD_INPUT:
-            words = f"omega: {'the case has no compare.omega' if at is None else f'{len(at)} of them'}, expected 1 to 1024"
-        watch.check(status, words, result)
+            status = lib.case_give(case, b"against", *arrays.shape, arrays.ctypes.data, message, MESSAGE) if arrays is not None else 0
+            check(status, message.value.decode(errors="replace"))
+            found = run(case, command, listed, watch.monitor)
+        made = [kind({}, self.responses)] if not found.tables else []
+        for title, columns, units, meanings, notes in found.tables:
+            of = kind if not made else Contacts if title == "Contacts" else Table
+            made.append(of(columns, self.responses, title, units, meanings, notes))
+        result = made[0]
+        tables = {t.title: t for t in made if t.title}
+        for table in made:
+            table.tables, table.remarks, table.exit_code = tables, found.remarks, found.exit_code
+        if contacts and len(made) > 1:
+            result.contacts = tables["Contacts"]
+            result.contacts.names = self.contacts
+            place(result.contacts, result)
+        if isinstance(result, Curve):
+            result._made = self._made
+        watch.check(found.status, found.words(), result if found.status != BAD_INPUT else None)
         return result
 
-    def transient(self, omega: Any = None, progress: Optional[Progress] = None, contacts: bool = False) -> Transient:
+    def _options(self, options):
+        """As on the command line. Frequencies in rad per unit time become those of the case."""
+        listed = []
+        for name, value in options.items():
+            if value is None or value is False:
+                continue
+            if name == "at":
+                value = omegas("omega", value)
+                if len(value) == 0:
+                    raise BadInput("omega: empty, expected at least one")
+                value = value / (2 * np.pi) if self._in_cycles else value
+            text = "" if value is True else "=" + _value(value)
+            listed.append(f"--{name.replace('_', '-')}{text}")
+        return listed
+
+    def frf(self, at: Any = None, progress: Optional[Progress] = None, contacts: bool = False, **options: Any) -> Solutions:
+        """Response curve of harmonic balance over the sweep, past turning points, with stability; or, at: a number or
+        [n] [rad/time], every solution on it there; outside the sweep as the command does it.
+
+        contacts: with a table of what each contact does in each solution, .contacts. progress and further options: run."""
+        kind = Curve if at is None else Solutions
+        return self._run("frf", kind, {"at": at, **options}, progress, contacts)
+
+    def transient(self, omega: Any = None, progress: Optional[Progress] = None, contacts: bool = False, **options: Any) -> Transient:
         """Steady states by time integration at omega, a number or [n] [rad/time]; None: at the case's compare.omega.
 
         Rows that failed say so in `status`. progress and contacts as of frf; contacts may take as long again."""
-        return self._run(lib.transient_run, transient_of, lib.transient_free, omega, contacts, progress)
+        return self._run("transient", Transient, {"at": omega, **options}, progress, contacts)
 
-    def compare(self, omega: Any = None, progress: Optional[Progress] = None, contacts: bool = False) -> Comparison:
+    def compare(self, omega: Any = None, progress: Optional[Progress] = None, contacts: bool = False, **options: Any) -> Comparison:
         """Harmonic balance and time integration at omega, a number or [n] [rad/time]; None: at the case's compare.omega
         or compare.points. A verdict for each row. progress and contacts as of transient."""
-        return self._run(lib.comparison_run, comparison_of, lib.comparison_free, omega, contacts, progress)
+        return self._run("compare", Comparison, {"at": omega, **options}, progress, contacts)
 
     def verify(self, omega: Any, amplitude: Any, quantity: str = "amplitude", response: Union[int, str] = 0,
-               noise: float = 0.0, progress: Optional[Progress] = None) -> Verification:
+               noise: float = 0.0, progress: Optional[Progress] = None, **options: Any) -> Verification:
         """A curve of your own, point by point, and the likely cause where it is off.
 
         omega [n] [rad/time] in any order, several branches if there are; amplitude [n]: values of `quantity`, which is
@@ -194,17 +228,31 @@ class Model:
         at, values = finite("omega", omega), finite("amplitude", amplitude)
         if at.shape != values.shape:
             raise BadInput(f"amplitude: shape {values.shape}, expected {at.shape} as omega has")
-        number = self._numbered("response", response, self.responses)
-        curve = structs.Foreign(number, str(quantity).encode(), len(at), pointer(at), pointer(values), noise)
-        watch, place, message = Watch(progress), ctypes.c_void_p(), ctypes.create_string_buffer(MESSAGE)
-        with self._owner as case, watch:
-            status = lib.verification_run(case, ctypes.byref(curve), watch.monitor, message, MESSAGE, ctypes.byref(place))
-        try:
-            result = verification_of(place, self.responses) if place else None
-        finally:
-            lib.verification_free(place)
-        watch.check(status, message.value.decode(errors="replace"), result)
-        return result
+        if len(at) == 0:
+            raise BadInput("0 points, expected at least 3")
+        name = self.responses[self._numbered("response", response, self.responses)]
+        asked = {"quantity": str(quantity), "response": name, "noise": float(noise), **options}
+        return self._run("verify", Verification, asked, progress, arrays=np.ascontiguousarray([at, values]))
+
+    def modes(self, count: Optional[int] = None, **options: Any) -> Table:
+        """Natural frequencies and damping, contacts open and stuck; .tables["Contacts at rest"]."""
+        return self._run("modes", Table, {"count": count, **options}, None)
+
+    def advise(self, error: float = 1e-3, at: Any = None, progress: Optional[Progress] = None, **options: Any) -> Table:
+        """The fewest harmonics and samples that keep an error, along the curve or at frequencies."""
+        return self._run("advise", Table, {"error": float(error), "at": at, **options}, progress)
+
+    def prove(self, at: Any = None, progress: Optional[Progress] = None, **options: Any) -> Table:
+        """Certain bounds of the error of harmonic balance; needs hbmcheck-proof."""
+        return self._run("prove", Table, {"at": at, **options}, progress)
+
+    def gate(self, at: Any = None, progress: Optional[Progress] = None, **options: Any) -> Table:
+        """Every check against the limits of the case; .exit_code 0: all within."""
+        return self._run("gate", Table, {"at": at, **options}, progress)
+
+    def reduce(self, folder: Union[str, os.PathLike], **options: Any) -> Table:
+        """A small model of large sparse matrices, written to the folder, and its error; of a case file."""
+        return self._run("reduce", Table, {"output": os.fspath(folder), **options}, None)
 
     def contact_force(self, u: Any = None, v: Any = None, u2: Any = None, *, contact: Union[int, str] = 0,
                       samples: Optional[int] = None, harmonics: int = 1) -> ContactForce:
@@ -214,24 +262,26 @@ class Model:
         the second of two tangents. samples: per period, as an AFT takes them, >= 2H+1; None: exact. H is what the
         longest has, at least `harmonics`; shorter ones are filled up with zeros."""
         number = self._numbered("contact", contact, self.contacts)
-        given = [None if m is None else finite(name, m) for name, m in (("u", u), ("u2", u2), ("v", v))]
-        for name, m in zip(("u", "u2", "v"), given):
-            if m is not None and len(m) % 2 == 0:
+        given = {name: finite(name, m) for name, m in (("u", u), ("u2", u2), ("v", v)) if m is not None}
+        for name, m in given.items():
+            if len(m) % 2 == 0:
                 raise BadInput(f"{name}: {len(m)} coefficients, expected an odd number: X0, a1, b1, a2, b2, ...")
-        longest = max([2 * int(harmonics) + 1, 3, *(len(m) for m in given if m is not None)])
+        longest = max([2 * int(harmonics) + 1, 3, *(len(m) for m in given.values())])
         if longest > 401:
             raise BadInput(f"{longest // 2} harmonics, expected at most 200")
         if samples is not None and not longest <= samples <= 1 << 24:
             raise BadInput(f"samples: {samples} for {longest // 2} harmonics, expected {longest} to {1 << 24}")
-        u, u2, v = (None if m is None else np.pad(m, (0, longest - len(m))) for m in given)
-        T, N = np.empty(longest), np.empty(longest)
+        options = [f"--contact={number}", *(f"--motion-{name}={_value(m)}" for name, m in given.items()),
+                   f"--set=hbm.harmonics={longest // 2}", f"--set=hbm.force={'sampled' if samples else 'exact'}",
+                   f"--set=hbm.samples={samples or 2 * longest}"]
         with self._owner as case:
-            T2 = np.empty(longest) if lib.case_contact_tangents(case, number) == 2 else None
-            status = lib.contact_force(case, number, longest // 2, pointer(u), pointer(u2), pointer(v), samples or 0,
-                                       pointer(T), pointer(T2), pointer(N))
-        check(status, f"contact {self.contacts[number]} does not move along one of u, u2, v that are given"
-              if status == BAD_INPUT else "")
-        return ContactForce(T, N, T2)
+            _, columns, *_ = ask(case, "contact", *options).tables[0]
+        forces = {}
+        for force in ("tangential", "tangential_2", "normal"):
+            of = columns["force"] == force
+            forces[force] = np.zeros(longest)
+            forces[force][0], forces[force][1::2], forces[force][2::2] = columns["cos"][of][:1].sum(), *_pairs(columns, of, longest // 2)
+        return ContactForce(forces["tangential"], forces["normal"], forces["tangential_2"] if "tangential_2" in columns["force"] else None)
 
     def _numbered(self, what, asked, names):
         """A part of the case by its name, or its number from 0."""

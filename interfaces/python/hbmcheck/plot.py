@@ -30,11 +30,20 @@ def _labelled(axes: Any) -> Any:
 def curve(points: Any, axes: Any = None) -> Any:
     """Amplitude over omega, where it is unstable dashed."""
     axes = _axes(axes)
-    unstable = points.stable < 0
+    unstable = points.stable == "no"
     for drawn, style, label in ((~unstable, "-", "harmonic balance"), (unstable, "--", "unstable")):
         beside = drawn | np.roll(drawn, 1) & (np.arange(len(drawn)) > 0)  # lines meet where stability changes
         if drawn.any():
             axes.plot(points.omega, np.where(beside, points.amplitude, np.nan), style, color="tab:blue", label=label)
+    return _labelled(axes)
+
+
+def transient(rows: Any, axes: Any = None) -> Any:
+    """Amplitudes over omega by verdict."""
+    axes = _axes(axes)
+    for verdict in np.unique(rows.verdict):
+        which = rows.verdict == verdict
+        axes.plot(rows.omega[which], rows.amplitude[which], "x", label=verdict)
     return _labelled(axes)
 
 

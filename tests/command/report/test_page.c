@@ -292,7 +292,7 @@ static void what_is_not_unique_is_said(CHECK_STATE)
 {
   static const char *const words[] = {"2 rows without a mean to compare (<code>mean_free</code>)",
                                       "not compared: a matter of history",
-                                      "\"mean_free\":[1",
+                                      "\"mean_free\":[\"yes\"",
                                       "\"mean_free\":true",
                                       "<strong>Linear.</strong> nothing nonlinear was compared",
                                       NULL};

@@ -23,17 +23,28 @@ static void near(const char *what, double found, double expected, double tol)
   wrong += !ok;
 }
 
-static void done(const char *what, hbmcheck_status st)
+/* What the command finds, with at most one option. */
+static hbmcheck_result *run(const hbmcheck_case *c, const char *command, const char *option)
 {
-  if (st == HBMCHECK_OK) return;
-  printf("WRONG %s: %s\n", what, hbmcheck_status_text(st));
+  hbmcheck_result *r;
+  hbmcheck_status st = hbmcheck_run(c, command, option != NULL, &option, NULL, &r);
+  if (st == HBMCHECK_OK) return r;
+  printf("WRONG %s: %s\n", command, hbmcheck_status_text(st));
   exit(1);
+}
+
+static const hbmcheck_table *titled(const hbmcheck_result *r, const char *title)
+{
+  const hbmcheck_table *t;
+  int i = 0;
+  while ((t = hbmcheck_result_table(r, i)) != NULL && strcmp(hbmcheck_table_title(t), title) != 0) ++i;
+  return t;
 }
 
 /* Amplitude without contact, |F0/(K - M w^2 + i C w)|. */
 static double linear_amplitude(double w) { return force / hypot(stiffness - mass * w * w, damping * w); }
 
-/* x where the contact closes: x sin(45 deg) = -gap. */
+/* Where the contact closes: x sin(45 deg) = -gap. */
 static double touch(void) { return -gap * sqrt(2); }
 
 /* Where the linear amplitude first reaches that: the smaller root z = w^2 of (K - M z)^2 + C^2 z = (F0/touch)^2. */
@@ -43,66 +54,63 @@ static double grazing(void)
   return sqrt(b - sqrt(b * b - (k * k - f * f) / (m * m)));
 }
 
-/* The contact change is located to 1e-9 of omega (hbmcheck.h); the amplitude there moves by at most
+/* The contact change is located to 1e-9 of omega; the amplitude there moves by at most
  * d(amplitude)/d(omega) < 5 times that. The solution at omega = 7: tests/reference/hbm_exact.csv, good to 1e-9, the
  * equations solved to 1e-10 of the forces, of which the stuck stiffness makes some ten times the displacement's share:
  * 1e-8. Its mean is X[0] itself, its first harmonic hypot(X[1], X[2]) but for rounding. */
 static void trace(const hbmcheck_case *c)
 {
-  hbmcheck_curve *curve;
-  hbmcheck_solutions *at;
-  hbmcheck_solution s;
-  hbmcheck_special special;
   double X[3];
-  int n = 0;
-  done("hbmcheck_curve_trace", hbmcheck_curve_trace(c, NULL, &curve));
-  done("hbmcheck_curve_specials", hbmcheck_curve_specials(curve, 1, &special, &n));
-  near("specials, at least one", n >= 1, 1, 0);
-  near("omega of grazing", special.omega, grazing(), 1e-9 * grazing());
-  near("amplitude of grazing", special.amplitude, touch(), 5e-9 * touch());
-  done("hbmcheck_curve_at", hbmcheck_curve_at(curve, 7, &at));
-  near("solutions at omega = 7", hbmcheck_solutions_count(at), 1, 0);
-  done("hbmcheck_solutions_get", hbmcheck_solutions_get(at, 0, &s));
-  near("amplitude at omega = 7", s.amplitude, 9.99130459182, 1e-8 * 9.99);
-  near("mean at omega = 7", s.mean, -2.29888373479, 1e-8 * 9.99);
-  done("hbmcheck_solutions_coefficients", hbmcheck_solutions_coefficients(at, 0, 3, X, &n));
-  near("coefficients of H = 10", n, 21, 0);
-  near("the mean is X[0]", X[0], s.mean, 0);
-  near("the first harmonic is X[1], X[2]", hypot(X[1], X[2]), s.harmonic_1, 1e-15 * 9.99);
-  hbmcheck_solutions_free(at);
-  hbmcheck_curve_free(curve);
+  hbmcheck_result *curve = run(c, "frf", NULL), *at = run(c, "frf", "--at=7");
+  const hbmcheck_table *special = titled(curve, "Special points"), *s = hbmcheck_result_table(at, 0);
+  near("specials, at least one", hbmcheck_table_rows(special) >= 1, 1, 0);
+  near("omega of grazing", hbmcheck_table_number(special, 0, "omega"), grazing(), 1e-9 * grazing());
+  near("amplitude of grazing", hbmcheck_table_number(special, 0, "amplitude"), touch(), 5e-9 * touch());
+  near("solutions at omega = 7", hbmcheck_table_rows(s), 1, 0);
+  near("amplitude at omega = 7", hbmcheck_table_number(s, 0, "amplitude"), 9.99130459182, 1e-8 * 9.99);
+  near("mean at omega = 7", hbmcheck_table_number(s, 0, "mean"), -2.29888373479, 1e-8 * 9.99);
+  near("coefficients of H = 10", hbmcheck_table_numbers(s, 0, "coefficients", 3, X), 21, 0);
+  near("the mean is X[0]", X[0], hbmcheck_table_number(s, 0, "mean"), 0);
+  near("the first harmonic is X[1], X[2]", hypot(X[1], X[2]), hbmcheck_table_number(s, 0, "harmonic_1"), 1e-15 * 9.99);
+  hbmcheck_result_free(curve);
+  hbmcheck_result_free(at);
 }
 
 /* At omega = 5 the contact stays open: the closed form holds, and the answer is transient.tolerance from the orbit. */
 static void march(const hbmcheck_case *c)
 {
-  const double at = 5;
-  hbmcheck_transient *t;
-  hbmcheck_steady s;
-  done("hbmcheck_transient_run", hbmcheck_transient_run(c, 1, &at, NULL, &t));
-  done("hbmcheck_transient_get", hbmcheck_transient_get(t, 0, &s));
-  near("transient at omega = 5", s.amplitude, linear_amplitude(5), 10 * tolerance * s.amplitude);
-  hbmcheck_transient_free(t);
+  hbmcheck_result *t = run(c, "transient", "--at=5");
+  double amplitude = hbmcheck_table_number(hbmcheck_result_table(t, 0), 0, "amplitude");
+  near("transient at omega = 5", amplitude, linear_amplitude(5), 10 * tolerance * amplitude);
+  hbmcheck_result_free(t);
 }
 
 /* The two sides agree at these, inside the gate of the file. */
 static void compare(const hbmcheck_case *c)
 {
-  const double at[] = {5, 7};
-  hbmcheck_comparison *both;
-  hbmcheck_gate gate;
-  done("hbmcheck_comparison_run", hbmcheck_comparison_run(c, 2, at, NULL, &both));
-  near("rows", hbmcheck_comparison_count(both), 2, 0);
-  for (int k = 0; k < hbmcheck_comparison_count(both); ++k) {
-    hbmcheck_row row;
-    done("hbmcheck_comparison_get", hbmcheck_comparison_get(both, k, &row));
-    near("a row matches", strcmp(hbmcheck_verdict_name(row.verdict), "match"), 0, 0);
-  }
-  near("exit code", hbmcheck_comparison_exit_code(both), 0, 0);
-  done("hbmcheck_comparison_gate", hbmcheck_comparison_gate(both, &gate));
-  near("gate: failed", gate.failed, 0, 0);
-  near("gate: exit code", gate.exit_code, 0, 0);
-  hbmcheck_comparison_free(both);
+  hbmcheck_result *both = run(c, "compare", "--at=5,7");
+  const hbmcheck_table *rows = hbmcheck_result_table(both, 0), *gate = titled(both, "Gate");
+  int k;
+  near("rows", hbmcheck_table_rows(rows), 2, 0);
+  for (k = 0; k < hbmcheck_table_rows(rows); ++k)
+    near("a row matches", strcmp(hbmcheck_table_text(rows, k, "verdict"), "match"), 0, 0);
+  near("exit code", hbmcheck_result_exit_code(both), 0, 0);
+  near("gate: failed", hbmcheck_table_number(gate, 0, "failed"), 0, 0);
+  near("gate: exit code", hbmcheck_table_number(gate, 0, "exit_code"), 0, 0);
+  hbmcheck_result_free(both);
+}
+
+/* What a column is; and modes, by the library's other dependencies. */
+static void describe(const hbmcheck_case *c)
+{
+  hbmcheck_column column;
+  hbmcheck_result *modes = run(c, "modes", NULL);
+  column.size = sizeof column;
+  near("a first column", hbmcheck_table_column(hbmcheck_result_table(modes, 0), 0, &column), HBMCHECK_OK, 0);
+  near("it counts modes", strcmp(column.name, "mode"), 0, 0);
+  near("undamped frequency", hbmcheck_table_number(hbmcheck_result_table(modes, 0), 0, "omega_open"),
+       sqrt(stiffness / mass), 1e-14);
+  hbmcheck_result_free(modes);
 }
 
 int main(int argc, char **argv)
@@ -120,6 +128,7 @@ int main(int argc, char **argv)
   trace(c);
   march(c);
   compare(c);
+  describe(c);
   hbmcheck_case_free(c);
   return wrong ? 1 : 0;
 }
