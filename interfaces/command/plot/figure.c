@@ -110,7 +110,8 @@ hc_status figure_open(figure *g, plot_order *p, int width, int height)
   *g = (figure){.order = p, .letters = !strcmp(p->path, "-"), .x_unit = 1};
   snprintf(p->why, sizeof p->why, "%s", hc_status_text(HC_NO_MEMORY));
   g->to = open_memstream(&g->script, &g->length);
-  if (!g->to) return HC_NO_MEMORY;
+  g->plot = g->to ? open_memstream(&g->items, &g->items_length) : NULL;
+  if (!g->plot) return HC_NO_MEMORY;
   p->why[0] = 0;
   const char *path = g->order->path;
   figure_script(g, "set encoding utf8\n");
@@ -181,12 +182,14 @@ static hc_status run_script(figure *g)
 hc_status figure_close(figure *g, hc_status st)
 {
   if (!g->to) return st; /* never opened: nothing to free, and the reason is the caller's */
-  bool lost = ferror(g->to) != 0;
+  bool lost = ferror(g->to) || !g->plot || ferror(g->plot);
   lost |= fclose(g->to) != 0 || !g->script;
+  if (g->plot) fclose(g->plot);
   if (st == HC_OK && lost) st = HC_NO_MEMORY;
   if (st == HC_OK) st = run_script(g);
   if (st != HC_OK && !g->order->why[0]) snprintf(g->order->why, PLOT_WHY, "%s", hc_status_text(st));
   free(g->script);
+  free(g->items);
   return st;
 }
 
@@ -263,36 +266,69 @@ void figure_title(figure *g, const char *command, const char *title, const char 
   figure_script(g, g->letters ? "\"\n" : "}\"\n");
 }
 
-/* ---- data ---- */
+/* ---- series ---- */
 
-void figure_block(figure *g, const char *name, ...)
+/* Before the next item of the plot: "plot ", or what separates two. */
+static void begin_item(figure *g)
 {
-  va_list args;
-  fputc('$', g->to);
-  va_start(args, name);
-  vfprintf(g->to, name, args);
-  va_end(args);
-  fputs(" << EOD\n", g->to);
+  if (g->drawn) rewind(g->plot);
+  g->drawn = false;
+  g->before = ftell(g->plot);
+  fputs(g->before > 0 ? ", \\\n  " : "plot ", g->plot);
+}
+
+static void write_look(figure *g, const char *look, const char *title)
+{
+  fprintf(g->plot, " %s %s", look, title ? "title \"" : "notitle");
+  if (title) write_escaped(g->plot, title), fputc('"', g->plot);
+}
+
+void figure_series(figure *g, const char *how, const char *look, const char *title)
+{
+  begin_item(g);
+  fprintf(g->plot, "$d%d using %s%s", ++g->blocks, strchr(how, ':') ? "" : "1:2 with ", how);
+  write_look(g, look, title);
+  g->points = 0;
+  figure_script(g, "$d%d << EOD\n", g->blocks);
 }
 
 void figure_point(figure *g, double x, double y)
 {
-  if (isfinite(x) && isfinite(y)) figure_script(g, "%.10g %.10g\n", x / g->x_unit, y);
+  if (!isfinite(x) || !isfinite(y)) return;
+  figure_script(g, "%.10g %.10g\n", x / g->x_unit, y);
+  ++g->points;
+}
+
+void figure_arrow(figure *g, double x, double y, double height)
+{
+  figure_script(g, "%.10g %.10g %.10g\n", x / g->x_unit, y, height);
+  ++g->points;
 }
 
 void figure_gap(figure *g) { figure_script(g, "\n"); }
 
-void figure_block_end(figure *g) { figure_script(g, "EOD\n"); }
+bool figure_series_end(figure *g)
+{
+  figure_script(g, "EOD\n");
+  if (g->points == 0) fseek(g->plot, g->before, SEEK_SET);
+  return g->points > 0;
+}
 
 void figure_item(figure *g, const char *look, const char *title, const char *what, ...)
 {
   va_list args;
-  fputs(g->items++ ? ", \\\n  " : "plot ", g->to);
+  begin_item(g);
   va_start(args, what);
-  vfprintf(g->to, what, args);
+  vfprintf(g->plot, what, args);
   va_end(args);
-  figure_script(g, " %s %s", look, title ? "title " : "notitle");
-  if (title) figure_text(g, "%s", title);
+  write_look(g, look, title);
+}
+
+void figure_draw(figure *g)
+{
+  fflush(g->plot);
+  if (g->items) figure_script(g, "%.*s\n", (int)g->items_length, g->items);
+  g->drawn = true;
 }
 
 const char *figure_words(figure *g, const char *format, ...)
@@ -308,12 +344,6 @@ hc_status figure_refuse(plot_order *p, const char *why)
 {
   snprintf(p->why, sizeof p->why, "%s", why);
   return HC_BAD_INPUT;
-}
-
-void figure_draw(figure *g)
-{
-  figure_script(g, "\n");
-  g->items = 0;
 }
 
 /* ---- looks: Okabe and Ito's colours, dark before light ---- */
@@ -385,12 +415,14 @@ const char *figure_unit(const scene *sc, const char *unit, char text[FIGURE_UNIT
 int figure_cell(figure *g, int column, int row, double value)
 {
   figure_script(g, "%d %d %.8g\n", column, row, value);
+  ++g->points;
   return snprintf(NULL, 0, CELL_NUMBER, value);
 }
 
 /* Small values are light; the palette darkens evenly, also in grey. Numbers on the darker half are white. */
 void figure_heat(figure *g, const char *label, bool logarithmic, double low, double high, bool numbered)
 {
+  const int cells = g->blocks;
   if (!(high > low)) high = low + (low != 0 ? 0.1 * fabs(low) : 1); /* one value only */
   figure_script(g, "set palette defined (0 '#fdf6e3', 0.35 '#f0a860', 0.7 '#a8325a', 1 '#2a0a4a')\nset cblabel ");
   figure_text(g, "%s", label);
@@ -399,14 +431,17 @@ void figure_heat(figure *g, const char *label, bool logarithmic, double low, dou
   figure_script(g, "low = %.10g\nhigh = %.10g\n", low, high);
   figure_script(g, "set cbrange [low:high]\nfraction(v) = %s\n",
                 logarithmic ? "log(v/low)/log(high/low)" : "(v - low)/(high - low)");
-  figure_script(g, "half = 0.5\nplot $cells using 1:2:($1-half):($1+half):($2-half):($2+half):3 with boxxyerror "
-                   "fill solid noborder lc palette");
+  figure_script(g,
+                "half = 0.5\nplot $d%d using 1:2:($1-half):($1+half):($2-half):($2+half):3 with boxxyerror "
+                "fill solid noborder lc palette",
+                cells);
   for (int dark = 0; dark < 2 && numbered; ++dark)
     figure_script(g,
-                  ", \\\n  $cells using (fraction($3) < 0.5 ? %s):2:(sprintf('%s', $3)) with labels "
+                  ", \\\n  $d%d using (fraction($3) < 0.5 ? %s):2:(sprintf('%s', $3)) with labels "
                   "tc rgb '%s'",
-                  dark ? "NaN : $1" : "$1 : NaN", CELL_NUMBER, dark ? "white" : "black");
-  figure_draw(g);
+                  cells, dark ? "NaN : $1" : "$1 : NaN", CELL_NUMBER, dark ? "white" : "black");
+  figure_script(g, "\n");
+  g->drawn = true;
 }
 
 /* ---- points by verdict ---- */
@@ -431,6 +466,12 @@ static const struct verdict_look {
 };
 enum { N_VERDICT_LOOKS = sizeof verdict_looks / sizeof *verdict_looks };
 
+enum { VERDICTS_MOST = 16 };
+typedef struct verdicts {
+  int n, count[VERDICTS_MOST];
+  char name[VERDICTS_MOST][24];
+} verdicts;
+
 /* The place of a verdict, a new one if there is room. */
 static int verdict_place(verdicts *v, const char *name)
 {
@@ -440,31 +481,24 @@ static int verdict_place(verdicts *v, const char *name)
   return i < VERDICTS_MOST ? i : VERDICTS_MOST - 1;
 }
 
-void verdicts_data(figure *g, verdicts *v, int n, const void *rows, verdict_point *at)
+void figure_verdicts(figure *g, const char *of, int n, const void *rows, verdict_point *at)
 {
   double x, y;
   char text[24];
-  *v = (verdicts){0};
+  verdicts v = {0};
   for (int i = 0; i < n; ++i) {
     const char *name = at(rows, i, &x, &y, text);
-    if (name) ++v->count[verdict_place(v, name)];
+    if (name) ++v.count[verdict_place(&v, name)];
   }
-  for (int k = 0; k < v->n; ++k) {
-    figure_block(g, "verdict%d", k);
+  for (int k = 0; k < v.n; ++k) {
+    int look = 0;
+    while (look < N_VERDICT_LOOKS - 1 && strcmp(verdict_looks[look].name, v.name[k])) ++look; /* last: period_2, ... */
+    figure_series(g, "points", figure_look(g, 10 + look, "%s", verdict_looks[look].look),
+                  figure_words(g, "%s: %s (%d)", of, v.name[k], v.count[k]));
     for (int i = 0; i < n; ++i) {
       const char *name = at(rows, i, &x, &y, text);
-      if (name && verdict_place(v, name) == k) figure_point(g, x, y);
+      if (name && verdict_place(&v, name) == k) figure_point(g, x, y);
     }
-    figure_block_end(g);
-  }
-}
-
-void verdicts_items(figure *g, const verdicts *v, const char *of)
-{
-  for (int i = 0; i < v->n; ++i) {
-    int k = 0;
-    while (k < N_VERDICT_LOOKS - 1 && strcmp(verdict_looks[k].name, v->name[i])) ++k; /* last: period_2, period_3 */
-    figure_item(g, figure_look(g, 10 + k, "%s", verdict_looks[k].look),
-                figure_words(g, "%s: %s (%d)", of, v->name[i], v->count[i]), "$verdict%d using 1:2 with points", i);
+    figure_series_end(g);
   }
 }

@@ -1,7 +1,9 @@
-/* figure.h - a gnuplot script as it is written: the terminal, texts, data, looks of lines. Every text that comes from
- * outside goes through figure_text, which writes what gnuplot or its markup could act on as octal escapes: a title can
- * neither end its string nor run anything. The names of data blocks are our own. A write that failed is reported by
- * figure_close. */
+/* figure.h - a gnuplot script as it is written: the terminal, texts, series of points and their looks. Every text that
+ * comes from outside goes through figure_text, which writes what gnuplot or its markup could act on as octal escapes: a
+ * title can neither end its string nor run anything. A write that failed is reported by figure_close.
+ *
+ *     figure_series, figure_point ..., figure_series_end    for each: its data go into the script, and it into the plot
+ *     figure_draw                                           the plot of all of them, with what is set by then */
 #pragma once
 
 #include <stdbool.h>
@@ -15,7 +17,12 @@ typedef struct figure {
   FILE *to;     /* the script so far */
   char *script;
   size_t length;
-  int items;                 /* of the plot command being written */
+  FILE *plot; /* the items of the plot command */
+  char *items;
+  size_t items_length;
+  bool drawn;                /* they were: the next item is the first of another plot */
+  int blocks, points;        /* data blocks written; points of the last one */
+  long before;               /* in `plot`: where the item of that one begins */
   char look[96], words[512]; /* what figure_look and figure_words made last */
   double x_unit;             /* figure_point divides x by it; 1 from figure_open on */
 } figure;
@@ -36,15 +43,20 @@ void figure_below(figure *g, const char *format, ...) __attribute__((format(prin
 /* Title and, smaller and below it, what is drawn. `command` is "set title", or "set multiplot ... title". */
 void figure_title(figure *g, const char *command, const char *title, const char *about);
 
-/* $name << EOD ... EOD; a point (x / x_unit, y) only where both are numbers; a gap interrupts a line. */
-void figure_block(figure *g, const char *name, ...) __attribute__((format(printf, 2, 3)));
+/* A series of points, drawn "lines", "points", "linespoints", "steps", or as columns and style say ("1:2:(0):3 with
+ * vectors"); title NULL: not in the key. */
+void figure_series(figure *g, const char *how, const char *look, const char *title);
+/* A point (x / x_unit, y) of it, only where both are numbers; a gap interrupts a line. */
 void figure_point(figure *g, double x, double y);
 void figure_gap(figure *g);
-void figure_block_end(figure *g);
-
-/* One more item of a plot, figure_item(g, look, title or NULL, "$a%d using 1:2 with lines", i); figure_draw ends it. */
+/* A point with a third column, such as the height of an arrow. */
+void figure_arrow(figure *g, double x, double y, double height);
+/* False: it had no point, and is not drawn. */
+bool figure_series_end(figure *g);
+/* One more item of the plot, without data: what = "0.5 with lines". */
 void figure_item(figure *g, const char *look, const char *title, const char *what, ...)
     __attribute__((format(printf, 4, 5)));
+/* Draws all since the last figure_draw; the same once more, if nothing came since. */
 void figure_draw(figure *g);
 /* For its title. */
 const char *figure_words(figure *g, const char *format, ...) __attribute__((format(printf, 2, 3)));
@@ -65,25 +77,15 @@ void figure_log(figure *g, const char *axis);
 enum { FIGURE_UNIT = 64 };
 const char *figure_unit(const scene *sc, const char *unit, char text[FIGURE_UNIT]);
 
-/* A cell of the block $cells; characters of its number. */
+/* A point of a series of cells, which figure_heat draws in the place of figure_draw; characters of its number. */
 int figure_cell(figure *g, int column, int row, double value);
 /* The cells, low <= value <= high; numbered: each with its number. Axes and tics are the caller's. */
 void figure_heat(figure *g, const char *label, bool logarithmic, double low, double high, bool numbered);
 
-/* Points drawn by their verdict, in order of appearance. */
-enum { VERDICTS_MOST = 16 };
-typedef struct verdicts {
-  int n, count[VERDICTS_MOST];
-  char name[VERDICTS_MOST][24];
-} verdicts;
-
 /* Where point i of `rows` is drawn: the name of its verdict, perhaps in text; NULL: it has none. */
 typedef const char *verdict_point(const void *rows, int i, double *x, double *y, char text[24]);
-
-/* The data blocks $verdict0, $verdict1, ... of n points, one a verdict. */
-void verdicts_data(figure *g, verdicts *v, int n, const void *rows, verdict_point *at);
-/* An item for each of them, in the legend as "OF: match (12)". */
-void verdicts_items(figure *g, const verdicts *v, const char *of);
+/* n points, a series for each verdict in order of appearance, in the key as "OF: match (12)". */
+void figure_verdicts(figure *g, const char *of, int n, const void *rows, verdict_point *at);
 
 /* Several plots in one drawing, row by row; in a drawing of letters one below the other. */
 void panels_begin(figure *g, int rows, int columns, const char *title, const char *about);

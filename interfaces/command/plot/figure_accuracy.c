@@ -28,105 +28,85 @@ static const accuracy_row *row_at(const accuracy *a, int harmonics, int samples)
   return NULL;
 }
 
-/* An error of 0 has no place on a logarithmic scale and is left out. */
-static void write_error(figure *g, double x, const double *e)
-{
-  if (e && *e > 0) figure_point(g, x, *e);
-}
-
 static const double *worst_of(const accuracy_row *r)
 {
   return r && r->possible && r->status == HC_OK ? &r->worst : NULL;
 }
 
-/* ---- lines of a known order ---- */
-
-/* Data block $guide<order>: e0 (x/x0)^-order from x0 to x1. */
-static void write_order_line(figure *g, int order, double x0, double x1, double e0)
+/* The error at x, if it is a number; one of 0 has no place on a logarithmic scale. */
+static void error_point(figure *g, double x, const double *e)
 {
-  figure_block(g, "guide%d", order);
+  if (e && *e > 0) figure_point(g, x, *e);
+}
+
+/* e0 (x/x0)^-order from x0 to x1. */
+static void order_line(figure *g, int order, const char *of, double x0, double x1, double e0)
+{
+  static const char *const powers[] = {"", "²", "³", "⁴"};
+  const bool first = order == (*of == 'N' ? 1 : 2);
+  figure_series(g, "lines", figure_look(g, first ? 6 : 7, "lw 1.2 dt %d lc rgb '#888888'", first ? 3 : 5),
+                figure_words(g, "slope of 1/%s%s", of, powers[order - 1]));
   if (e0 > 0 && x1 > x0) {
     figure_point(g, x0, e0);
     figure_point(g, x1, e0 * pow(x1 / x0, -order));
   }
-  figure_block_end(g);
-}
-
-static void order_line_item(figure *g, int order, const char *of, int look)
-{
-  static const char *const looks[] = {"lw 1.2 dt 3 lc rgb '#888888'", "lw 1.2 dt 5 lc rgb '#888888'"};
-  static const char *const powers[] = {"", "²", "³", "⁴"};
-  figure_item(g, figure_look(g, 6 + look, "%s", looks[look]), figure_words(g, "slope of 1/%s%s", of, powers[order - 1]),
-              "$guide%d using 1:2 with lines", order);
+  figure_series_end(g);
 }
 
 /* ---- the panels ---- */
 
 static void panel_over_samples(figure *g, const accuracy *a, const accuracy_grid *q)
 {
+  const double from = q->samples[0], to = q->samples[q->n_time - 1];
   double top = 0;
   for (int h = 0; h < q->n_harm; ++h) {
-    figure_block(g, "n%d", h);
+    figure_series(g, "linespoints", figure_mark(g, h, 1.6), figure_words(g, "H = %d", q->harmonics[h]));
     for (int i = 0; i < q->n_time; ++i) {
       const accuracy_row *r = row_at(a, q->harmonics[h], q->samples[i]);
       if (!worst_of(r)) continue;
-      write_error(g, q->samples[i], &r->aliasing);
+      error_point(g, q->samples[i], &r->aliasing);
       if (i == 0 && isfinite(r->aliasing)) top = fmax(top, r->aliasing);
     }
-    figure_block_end(g);
+    figure_series_end(g);
   }
-  write_order_line(g, 1, q->samples[0], q->samples[q->n_time - 1], 2 * top);
-  write_order_line(g, 2, q->samples[0], q->samples[q->n_time - 1], 2 * top);
+  order_line(g, 1, "N", from, to, 2 * top);
+  order_line(g, 2, "N", from, to, 2 * top);
   figure_script(g,
                 "set title 'Aliasing: sampled against exact forces'\nset ylabel 'largest relative amplitude error'\n");
   figure_below(g, "samples per period N");
   figure_log(g, "y");
-  figure_script(g, "set logscale x 2\nset format x '%%.0f'\nset xrange [%g:%g]\nset yrange [*:*]\n",
-                q->samples[0] / 1.3, q->samples[q->n_time - 1] * 1.3);
-  for (int h = 0; h < q->n_harm; ++h)
-    figure_item(g, figure_mark(g, h, 1.6), figure_words(g, "H = %d", q->harmonics[h]),
-                "$n%d using 1:2 with linespoints", h);
-  order_line_item(g, 1, "N", 0);
-  order_line_item(g, 2, "N", 1);
+  figure_script(g, "set logscale x 2\nset format x '%%.0f'\nset xrange [%g:%g]\nset yrange [*:*]\n", from / 1.3,
+                to * 1.3);
   figure_draw(g);
 }
 
-static void write_errors_over_harmonics(figure *g, const accuracy *a, const accuracy_grid *q, const char *name,
-                                        int samples, double *top)
+static void errors_over_harmonics(figure *g, const accuracy *a, const accuracy_grid *q, int samples, const char *look,
+                                  const char *title, double *top)
 {
-  figure_block(g, "%s", name);
+  figure_series(g, "linespoints", look, title);
   for (int h = 0; h < q->n_harm; ++h) {
     const double *e = worst_of(row_at(a, q->harmonics[h], samples));
-    write_error(g, q->harmonics[h], e);
+    error_point(g, q->harmonics[h], e);
     if (h == 0 && e && isfinite(*e)) *top = fmax(*top, *e);
   }
-  figure_block_end(g);
+  figure_series_end(g);
 }
 
 static void panel_over_harmonics(figure *g, const accuracy *a, const accuracy_grid *q)
 {
   double top = 0, first = q->harmonics[0], last = q->harmonics[q->n_harm - 1];
-  char name[64];
-  write_errors_over_harmonics(g, a, q, "hexact", EXACT, &top);
-  for (int i = 0; i < q->n_time; ++i) {
-    snprintf(name, sizeof name, "h%d", i);
-    write_errors_over_harmonics(g, a, q, name, q->samples[i], &top);
-  }
-  write_order_line(g, 2, first, last, 2 * top);
-  write_order_line(g, 4, first, last, 2 * top);
+  errors_over_harmonics(g, a, q, EXACT, g->letters ? "lt 1 pt 1" : "lw 2.4 dt 1 pt 7 ps 1 lc rgb '#000000'",
+                        "exact forces", &top);
+  for (int i = 0; i < q->n_time; ++i)
+    errors_over_harmonics(g, a, q, q->samples[i], figure_mark(g, i + 1, 1.4), figure_words(g, "N = %d", q->samples[i]),
+                          &top);
+  order_line(g, 2, "H", first, last, 2 * top);
+  order_line(g, 4, "H", first, last, 2 * top);
   figure_below(g, "harmonics H");
   figure_script(
       g, "set title 'Discrepancy from time integration, over H'\nset logscale x 10\nset format x '%%.0f'\nset xtics (");
   for (int h = 0; h < q->n_harm; ++h) figure_script(g, "%s%d", h ? ", " : "", q->harmonics[h]);
   figure_script(g, ")\nset xrange [%g:%g]\n", first / 1.15, last * 1.15);
-  if (q->exact)
-    figure_item(g, g->letters ? "lt 1 pt 1" : "lw 2.4 dt 1 pt 7 ps 1 lc rgb '#000000'", "exact forces",
-                "$hexact using 1:2 with linespoints");
-  for (int i = 0; i < q->n_time; ++i)
-    figure_item(g, figure_mark(g, i + 1, 1.4), figure_words(g, "N = %d", q->samples[i]),
-                "$h%d using 1:2 with linespoints", i);
-  order_line_item(g, 2, "H", 0);
-  order_line_item(g, 4, "H", 1);
   figure_draw(g);
   figure_script(g, "set xtics autofreq\n");
 }
@@ -136,7 +116,7 @@ static void panel_heat(figure *g, const accuracy *a, const accuracy_grid *q)
   enum { ACROSS = 66, DOWN = 16 }; /* characters, and lines, of a panel in the largest font of figure.c's terminals */
   int columns = q->n_time + q->exact, longest = 0;
   double low = INFINITY, high = 0;
-  figure_block(g, "cells");
+  figure_series(g, "points", "", NULL);
   for (int h = 0; h < q->n_harm; ++h)
     for (int i = 0; i < columns; ++i) {
       const double *e = worst_of(row_at(a, q->harmonics[h], i < q->n_time ? q->samples[i] : EXACT));
@@ -146,7 +126,7 @@ static void panel_heat(figure *g, const accuracy *a, const accuracy_grid *q)
       low = fmin(low, fmax(*e, no_less));
       high = fmax(high, *e);
     }
-  figure_block_end(g);
+  figure_series_end(g);
   figure_script(
       g, "unset logscale x\nunset logscale y\nset format x '%%s'\nset format y '%%s'\nset title 'Discrepancy from time "
          "integration, over N and H'\n");

@@ -40,7 +40,7 @@ static int by_time(const void *a, const void *b)
 static hc_status put_panel(figure *g, const scene *sc, const bench *b, int k_omega)
 {
   const bench_frequency *p = &b->frequencies[k_omega];
-  int count[BENCH_METHODS], n_front = 0;
+  int n_front = 0;
   double(*at)[2] = malloc((size_t)(p->n > 0 ? p->n : 1) * sizeof *at);
   if (!at) return HC_NO_MEMORY;
   for (int i = p->first; i < p->first + p->n; ++i) {
@@ -49,30 +49,20 @@ static hc_status put_panel(figure *g, const scene *sc, const bench *b, int k_ome
     at[n_front++][1] = drawn_error(&b->rows[i], p);
   }
   qsort(at, (size_t)n_front, sizeof *at, by_time);
-  figure_block(g, "front%d", k_omega);
+  figure_series(g, "steps", figure_look(g, 0, "lw 3 dt 1 lc rgb '#bbbbbb'"), "nothing is nearer and faster");
   for (int i = 0; i < n_front; ++i) figure_point(g, at[i][0], at[i][1]);
-  figure_block_end(g);
+  figure_series_end(g);
   free(at);
   for (int m = 0; m < BENCH_METHODS; ++m) {
-    int n = 0;
-    figure_block(g, "p%dm%d", k_omega, m);
+    figure_series(g, "points", figure_look(g, m + 1, "%s", looks[m]), bench_method_name((bench_method)m));
     for (int i = p->first; i < p->first + p->n; ++i) {
       const bench_row *r = &b->rows[i];
-      if (r->method != (bench_method)m || !is_drawn(r)) continue;
-      figure_point(g, r->seconds, drawn_error(r, p));
-      ++n;
+      if (r->method == (bench_method)m && is_drawn(r)) figure_point(g, r->seconds, drawn_error(r, p));
     }
-    figure_block_end(g);
-    count[m] = n;
+    figure_series_end(g);
   }
   if (sc->in_cycles) figure_set(g, "title", "%.8g cycles/%s", scene_frequency(sc, p->omega), sc->unit_time);
   else figure_set(g, "title", "ω = %.8g rad/%s", p->omega, sc->unit_time);
-  figure_item(g, figure_look(g, 0, "lw 3 dt 1 lc rgb '#bbbbbb'"), "nothing is nearer and faster",
-              "$front%d using 1:2 with steps", k_omega);
-  for (int m = 0; m < BENCH_METHODS; ++m)
-    if (count[m])
-      figure_item(g, figure_look(g, m + 1, "%s", looks[m]), bench_method_name((bench_method)m),
-                  "$p%dm%d using 1:2 with points", k_omega, m);
   figure_draw(g);
   return HC_OK;
 }

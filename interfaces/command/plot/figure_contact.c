@@ -21,41 +21,32 @@ enum {
 
 enum { PHASES = 3 };
 static const struct phase {
-  const char *name, *title;
+  const char *title;
   int dash;
   double width;
-} phases[PHASES] = {{"stick", "sticks", 1, 2.4}, {"slip", "slips", 2, 2}, {"apart", "separated", 3, 2}};
+} phases[PHASES] = {{"sticks", 1, 2.4}, {"slips", 2, 2}, {"separated", 3, 2}};
 
 static int phase_of(contact_state st) { return st == CONTACT_STICK ? 0 : st == CONTACT_SEPARATED ? 2 : 1; }
 
-/* Data block of loop j in that phase: (x, y) of points 0..n. How many of them are in it. */
-static int write_phase(figure *g, int j, int phase, int n, const contact_state *state, const double *x, const double *y)
+/* Loop j (x, y) of points 0..n, a series for each phase; only: the legend needs no number. */
+static void put_loop(figure *g, int j, bool only, int n, const contact_state *state, const double *x, const double *y)
 {
-  int found = 0;
-  figure_block(g, "%s%d", phases[phase].name, j);
-  for (int i = 0; i < n; ++i) {
-    const bool mine = phase_of(state[i + 1]) == phase, next = i + 2 <= n && phase_of(state[i + 2]) == phase;
-    if (!mine) continue;
-    const bool begins = i == 0 || phase_of(state[i]) != phase;
-    if (begins) figure_point(g, x[i], y[i]);
-    if (!next || i % EVERY == 0) figure_point(g, x[i + 1], y[i + 1]);
-    if (!next) figure_gap(g);
-    ++found;
-  }
-  figure_block_end(g);
-  return found;
-}
-
-/* Its items where there[phase] is not 0; only: the legend needs no number. */
-static void phase_items(figure *g, int j, const int there[PHASES], bool only)
-{
-  for (int k = 0; k < PHASES; ++k) {
-    char of[32] = "";
-    if (!there[k]) continue;
-    if (!only) snprintf(of, sizeof of, "contact %d ", j);
-    figure_item(
-        g, figure_look(g, PHASES * j + k, "lw %g dt %d lc rgb '%s'", phases[k].width, phases[k].dash, figure_colour(j)),
-        figure_words(g, "%s%s", of, phases[k].title), "$%s%d using 1:2 with lines", phases[k].name, j);
+  char of[32] = "";
+  if (!only) snprintf(of, sizeof of, "contact %d ", j);
+  for (int phase = 0; phase < PHASES; ++phase) {
+    const struct phase *p = &phases[phase];
+    figure_series(g, "lines",
+                  figure_look(g, PHASES * j + phase, "lw %g dt %d lc rgb '%s'", p->width, p->dash, figure_colour(j)),
+                  figure_words(g, "%s%s", of, p->title));
+    for (int i = 0; i < n; ++i) {
+      const bool mine = phase_of(state[i + 1]) == phase, next = i + 2 <= n && phase_of(state[i + 2]) == phase;
+      if (!mine) continue;
+      const bool begins = i == 0 || phase_of(state[i]) != phase;
+      if (begins) figure_point(g, x[i], y[i]);
+      if (!next || i % EVERY == 0) figure_point(g, x[i + 1], y[i + 1]);
+      if (!next) figure_gap(g);
+    }
+    figure_series_end(g);
   }
 }
 
@@ -77,16 +68,14 @@ typedef struct contact_history {
   contact_state state[POINTS + 1];
 } contact_history;
 
-/* The data blocks of the first n contacts; there[j][phase]: points of the loop in that phase. */
-static hc_status write_contacts(figure *g, const plot_motion *m, int n, int there[][PHASES], double closed[2])
+/* The first n contacts along the period, into w[n]; closed: the range of u while some contact is closed. */
+static hc_status follow_contacts(const plot_motion *m, int n, contact_history *w, double closed[2])
 {
   double F[SERIES_MAX_DIM * (2 * HBM_MAX_HARMONICS + 1)];
   exact_force *e = NULL;
-  contact_history *w = malloc(sizeof *w);
-  hc_status st =
-      w ? exact_force_new(m->of->n_harm, m->of->n_dof, m->of->n_contacts, m->of->contacts, &e) : HC_NO_MEMORY;
+  hc_status st = exact_force_new(m->of->n_harm, m->of->n_dof, m->of->n_contacts, m->of->contacts, &e);
   if (st == HC_OK) st = exact_force_eval(e, m->of->X, F, NULL, NULL);
-  for (int j = 0, pieces; j < n && st == HC_OK; ++j) {
+  for (int j = 0, pieces; j < n && st == HC_OK; ++j, ++w) {
     const contact_interval *p = exact_force_intervals(e, j, &pieces);
     /* The exact law, from the intervals that exact_force.h found. */
     const moving_contact *c = &m->of->contacts[j];
@@ -94,7 +83,6 @@ static hc_status write_contacts(figure *g, const plot_motion *m, int n, int ther
       const double th = angle_of(i);
       double v = 0;
       const contact_interval *now = contact_interval_at(pieces, p, th);
-      w->u[i] = 0;
       for (int d = 0; d < m->of->n_dof; ++d) {
         const double x = series_at(m->of->n_harm, m->of->X + d * series_length(m->of->n_harm), cos(th), sin(th)).x;
         w->u[i] += c->cu[d] * x;
@@ -104,22 +92,21 @@ static hc_status write_contacts(figure *g, const plot_motion *m, int n, int ther
       w->state[i] = now ? now->state : CONTACT_SEPARATED;
       w->t[i] = contact_interval_traction(&c->law, now, w->u[i], w->normal[i]);
       w->u[i] += m->slider[0];
-    }
-    for (int k = 0; k < PHASES; ++k) there[j][k] = write_phase(g, j, k, POINTS, w->state, w->u, w->t);
-    for (int i = 0; i <= POINTS; ++i) {
       if (w->state[i] == CONTACT_SEPARATED) continue;
       closed[0] = fmin(closed[0], w->u[i]);
       closed[1] = fmax(closed[1], w->u[i]);
     }
-    figure_block(g, "forces%d", j);
-    for (int i = 0; i <= POINTS; i += EVERY)
-      figure_script(g, "%.10g %.10g %.10g %.10g\n", (double)i / POINTS, w->t[i], w->normal[i],
-                    m->of->contacts[j].law.mu * w->normal[i]);
-    figure_block_end(g);
   }
   exact_force_free(e);
-  free(w);
   return st;
+}
+
+/* by y over the period. */
+static void put_force(figure *g, const char *look, const char *title, double by, const double y[POINTS + 1])
+{
+  figure_series(g, "lines", look, title);
+  for (int i = 0; i <= POINTS; i += EVERY) figure_point(g, (double)i / POINTS, by * y[i]);
+  figure_series_end(g);
 }
 
 /* The law, and which contacts of the case are drawn where it has more. */
@@ -137,12 +124,13 @@ static const char *say_which(const scene *sc, const plot_motion *m, int n, char 
 static hc_status plot_loops(plot_order *p, const scene *sc, const plot_motion *m)
 {
   figure g = {0};
-  int n = m->of->n_contacts < MOST_LOOPS ? m->of->n_contacts : MOST_LOOPS, there[MOST_LOOPS][PHASES];
+  const int n = m->of->n_contacts < MOST_LOOPS ? m->of->n_contacts : MOST_LOOPS;
   double closed[2] = {INFINITY, -INFINITY}; /* u while some contact is closed */
   char about[128];
   if (n == 0) return figure_refuse(p, "there is no contact to draw");
+  contact_history *w = calloc((size_t)n, sizeof *w);
   hc_status st = figure_open(&g, p, 1100, 500);
-  if (st == HC_OK) st = write_contacts(&g, m, n, there, closed);
+  if (st == HC_OK) st = w ? follow_contacts(m, n, w, closed) : HC_NO_MEMORY;
   if (st == HC_OK) {
     panels_begin(&g, 1, 2, sc->title, say_which(sc, m, n, about, sizeof about));
     figure_script(
@@ -154,7 +142,7 @@ static hc_status plot_loops(plot_order *p, const scene *sc, const plot_motion *m
     /* The range of u while the contact is closed, with a margin: while it is open T = 0. */
     double wide = closed[1] - closed[0];
     if (wide > 0) figure_script(&g, "set xrange [%.10g:%.10g]\n", closed[0] - 0.5 * wide, closed[1] + 0.25 * wide);
-    for (int j = 0; j < n; ++j) phase_items(&g, j, there[j], n == 1);
+    for (int j = 0; j < n; ++j) put_loop(&g, j, n == 1, POINTS, w[j].state, w[j].u, w[j].t);
     figure_draw(&g);
     figure_below(&g, "t / T");
     figure_script(&g,
@@ -163,17 +151,16 @@ static hc_status plot_loops(plot_order *p, const scene *sc, const plot_motion *m
     for (int j = 0; j < n; ++j) {
       char of[32] = "";
       if (n > 1) snprintf(of, sizeof of, " of contact %d", j);
-      figure_item(&g, figure_line(&g, 3 * j + 2, 1.8), figure_words(&g, "normal force N%s", of),
-                  "$forces%d using 1:3 with lines", j);
-      figure_item(&g, figure_line(&g, 3 * j, 2), figure_words(&g, "tangential force T%s", of),
-                  "$forces%d using 1:2 with lines", j);
-      if (n > 1 || g.letters) continue;
-      figure_item(&g, "lw 1 dt 3 lc rgb '#555555'", "± μ N", "$forces0 using 1:4 with lines");
-      figure_item(&g, "lw 1 dt 3 lc rgb '#555555'", NULL, "$forces0 using 1:(-$4) with lines");
+      put_force(&g, figure_line(&g, 3 * j + 2, 1.8), figure_words(&g, "normal force N%s", of), 1, w[j].normal);
+      put_force(&g, figure_line(&g, 3 * j, 2), figure_words(&g, "tangential force T%s", of), 1, w[j].t);
     }
+    for (int sign = 1; sign >= -1 && n == 1 && !g.letters; sign -= 2)
+      put_force(&g, "lw 1 dt 3 lc rgb '#555555'", sign > 0 ? "± μ N" : NULL, sign * m->of->contacts[0].law.mu,
+                w->normal);
     figure_draw(&g);
     panels_end(&g);
   }
+  free(w);
   return figure_close(&g, st);
 }
 
@@ -243,14 +230,14 @@ static hc_status evaluate_square(const plot_motion *m, plane_history *out)
 }
 
 /* The limit where it is mu N = r: a circle, or a square of side 2 r. */
-static void write_limit(figure *g, const char *name, bool circle, double r)
+static void put_limit(figure *g, const char *look, const char *title, bool circle, double r)
 {
   const int n = circle ? CORNERS : 4;
   const double first = circle ? 0 : TWO_PI / 8, to_corner = circle ? r : sqrt(2) * r;
-  figure_block(g, "%s", name);
+  figure_series(g, "lines", look, title);
   for (int i = 0; i <= n; ++i)
     figure_point(g, to_corner * cos(first + TWO_PI * i / n), to_corner * sin(first + TWO_PI * i / n));
-  figure_block_end(g);
+  figure_series_end(g);
 }
 
 static void axes(figure *g, const char *title, const char *quantity, const char *name, const char *unit)
@@ -267,7 +254,6 @@ static hc_status plot_plane(plot_order *p, const scene *sc, const plot_motion *m
   const char *const name = scene_contact_at(sc, m->first)->name;
   figure g = {0};
   char about[128];
-  int there[PHASES];
   if (!contact_has_friction(&m->of->contacts->law))
     return figure_refuse(p, "the contact has no friction: there is no traction to draw");
   plane_history *w = calloc(1, sizeof *w);
@@ -292,47 +278,38 @@ static hc_status plot_plane(plot_order *p, const scene *sc, const plot_motion *m
         w->u[d][i] += m->slider[d];
         w->w[d][i] = w->u[d][i] - w->t[d][i] / m->of->contacts->law.kt;
       }
-    for (int k = 0; k < PHASES; ++k) there[k] = write_phase(&g, 0, k, POINTS, w->state, w->t[0], w->t[1]);
-    /* The ways of the motion and, while there is contact, of the slider; where it rests. */
-    figure_block(&g, "motion");
-    for (int i = 0; i <= POINTS; i += EVERY) figure_point(&g, w->u[0][i], w->u[1][i]);
-    figure_block_end(&g);
-    figure_block(&g, "slider");
-    for (int i = 0; i <= POINTS; ++i) {
-      if (w->state[i] != CONTACT_SEPARATED) figure_point(&g, w->w[0][i], w->w[1][i]);
-      else if (i > 0 && w->state[i - 1] != CONTACT_SEPARATED) figure_gap(&g);
-    }
-    figure_block_end(&g);
-    figure_block(&g, "rests");
-    for (int i = 0; i <= POINTS; ++i)
-      if (w->state[i] == CONTACT_STICK && (i == 0 || w->state[i - 1] != CONTACT_STICK))
-        figure_point(&g, w->w[0][i], w->w[1][i]);
-    figure_block_end(&g);
     if (*name) snprintf(about, sizeof about, "contact %s", name);
     else snprintf(about, sizeof about, "contact %d", m->first);
     snprintf(about + strlen(about), sizeof about - strlen(about), "; exact law, limit: %s, along the given motion",
              m->of->circle ? "circle" : "square");
     panels_begin(&g, 1, 2, sc->title, about);
     double most, least;
-    /* The largest and the smallest mu N; at least[1] is 0 where it separates. */
+    /* The largest and the smallest mu N; the smallest is 0 where it separates. */
     most = least = w->limit[0];
     for (int i = 0; i <= POINTS; ++i) most = fmax(most, w->limit[i]), least = fmin(least, w->limit[i]);
-    write_limit(&g, "most", m->of->circle, most);
-    write_limit(&g, "least", m->of->circle, least);
     axes(&g, "Traction in the plane", "traction", "T", sc->unit_force);
-    phase_items(&g, 0, there, true);
-    const char *title = least < most ? "limit μ N at most" : "limit μ N";
-    figure_item(&g, figure_look(&g, 4, "lw 1 dt 3 lc rgb '#555555'"), title, "$most using 1:2 with lines");
+    put_loop(&g, 0, true, POINTS, w->state, w->t[0], w->t[1]);
+    put_limit(&g, figure_look(&g, 4, "lw 1 dt 3 lc rgb '#555555'"), least < most ? "limit μ N at most" : "limit μ N",
+              m->of->circle, most);
     if (least > 0 && least < most)
-      figure_item(&g, figure_look(&g, 5, "lw 1 dt 4 lc rgb '#555555'"), "limit μ N at least",
-                  "$least using 1:2 with lines");
+      put_limit(&g, figure_look(&g, 5, "lw 1 dt 4 lc rgb '#555555'"), "limit μ N at least", m->of->circle, least);
     figure_draw(&g);
+    /* The ways of the motion and, while there is contact, of the slider; where it rests. */
     axes(&g, "Motion and slider", "motion", "u", sc->unit_length);
-    figure_item(&g, figure_look(&g, 1, "lw 1.2 dt 3 lc rgb '#555555'"), "motion u", "$motion using 1:2 with lines");
-    figure_item(&g, figure_look(&g, 2, "lw 2 dt 1 lc rgb '#D55E00'"), "slider w", "$slider using 1:2 with lines");
-    if (there[0])
-      figure_item(&g, figure_look(&g, 3, "pt 7 ps 0.8 lc rgb '#0072B2'"), "slider at rest",
-                  "$rests using 1:2 with points");
+    figure_series(&g, "lines", figure_look(&g, 1, "lw 1.2 dt 3 lc rgb '#555555'"), "motion u");
+    for (int i = 0; i <= POINTS; i += EVERY) figure_point(&g, w->u[0][i], w->u[1][i]);
+    figure_series_end(&g);
+    figure_series(&g, "lines", figure_look(&g, 2, "lw 2 dt 1 lc rgb '#D55E00'"), "slider w");
+    for (int i = 0; i <= POINTS; ++i) {
+      if (w->state[i] != CONTACT_SEPARATED) figure_point(&g, w->w[0][i], w->w[1][i]);
+      else if (i > 0 && w->state[i - 1] != CONTACT_SEPARATED) figure_gap(&g);
+    }
+    figure_series_end(&g);
+    figure_series(&g, "points", figure_look(&g, 3, "pt 7 ps 0.8 lc rgb '#0072B2'"), "slider at rest");
+    for (int i = 0; i <= POINTS; ++i)
+      if (w->state[i] == CONTACT_STICK && (i == 0 || w->state[i - 1] != CONTACT_STICK))
+        figure_point(&g, w->w[0][i], w->w[1][i]);
+    figure_series_end(&g);
     figure_draw(&g);
     panels_end(&g);
   }

@@ -338,14 +338,15 @@ static void draw_lines(figure *g, chart *c)
   const study_axis *a = &c->s->axes[c->x];
   char text[TEXT];
   for (long l = 0; l < c->drawn; ++l) {
-    figure_block(g, "line%ld", l);
-    for (int i = 0; i < c->s->axes[c->x].n; ++i) {
+    line_text(c, first_of_line(c, l), text);
+    figure_series(g, "linespoints", figure_mark(g, (int)l, 1.6), text[0] ? text : c->measure);
+    for (int i = 0; i < a->n; ++i) {
       double x = i, y = c->value[first_of_line(c, l) + i * stride_of(c)];
       if (c->scale) number_of(c->scale, i, &x);
       if (isfinite(y)) figure_point(g, x, y);
       else figure_gap(g); /* no line across a scene without a value */
     }
-    figure_block_end(g);
+    figure_series_end(g);
   }
   measure_label(c, text);
   figure_set(g, "ylabel", "%s", text);
@@ -371,10 +372,6 @@ static void draw_lines(figure *g, chart *c)
   double low, high;
   if (is_log_measure(c, &low, &high)) figure_log(g, "y");
   figure_script(g, "set offsets graph 0.02, graph 0.02, 0, 0\n");
-  for (long l = 0; l < c->drawn; ++l) {
-    line_text(c, first_of_line(c, l), text);
-    figure_item(g, figure_mark(g, (int)l, 1.6), text[0] ? text : c->measure, "$line%ld using 1:2 with linespoints", l);
-  }
   figure_draw(g);
 }
 
@@ -387,13 +384,13 @@ static void draw_heat(figure *g, chart *c)
   double low, high;
   char text[TEXT];
   int longest = 0;
-  figure_block(g, "cells");
+  figure_series(g, "points", "", NULL);
   for (long id = 0; id < c->s->n_scenes; ++id) {
     if (!isfinite(c->value[id])) continue;
     const int n = figure_cell(g, study_index(c->s, id, c->x), study_index(c->s, id, c->heat), c->value[id]);
     if (n > longest) longest = n;
   }
-  figure_block_end(g);
+  figure_series_end(g);
   figure_below(g, "%s", axis_text(c->s, ax, c->scale, text));
   figure_set(g, "ylabel", "%s", axis_text(c->s, ay, sy, text));
   const int across = ACROSS - longest_text(ay, sy), texts = across / (longest_text(ax, c->scale) + 1);
