@@ -267,7 +267,7 @@ int cli_run(const cli_command *self, int argc, char **argv)
   return code;
 }
 
-int cli_jobs(const cli_common *common) { return common->call ? 1 : cli_processors(); } /* its monitor is one thread's */
+int cli_jobs(const cli_common *common) { return common->call ? 1 : cli_processors(); }
 
 int cli_processors(void)
 {

@@ -142,7 +142,7 @@ int cli_check_files(cli_common *common, int n, const cli_file *files);
 
 /* Scenes computed at a time by default: the processors that are online, 1..CLI_MAX_JOBS. */
 int cli_processors(void);
-/* The same of a command; 1 for a call, whose monitor hears of one thread. */
+/* The same of a command; 1 for a call: threads are the caller's business. */
 int cli_jobs(const cli_common *common);
 
 /* Read the case with --set into sc, then common->scene. 0, or the exit code after the message, also in err. */

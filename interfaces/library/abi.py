@@ -68,7 +68,7 @@ def fields(body):
 
 
 def declared(text):
-    """{fact without its numbers: C expressions of those numbers}, as {"field hbmcheck_row omega double": ["offsetof(...)"]}."""
+    """{fact without its numbers: C expressions of those numbers}, as {"field hbmcheck_column name const char *": ["offsetof(...)"]}."""
     found = {}
     for statement in statements(text):
         block = re.fullmatch(r"(?:typedef )?(enum|struct)(?: (\w+))? ?\{(.*)\}(?: (\w+))?", statement)

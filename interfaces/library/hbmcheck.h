@@ -115,7 +115,7 @@ typedef struct hbmcheck_result hbmcheck_result;
  * coefficients, wave, ...; special points and summary of a curve; the gate's numbers of a comparison.
  * HBMCHECK_OK: it did what was asked, also where single rows failed, which say so. HBMCHECK_BAD_INPUT: the case or the
  * options are wrong; else why the work ended early. Remarks say more, and tables hold what was found until then: *out
- * is NULL after HBMCHECK_NO_MEMORY alone. */
+ * is NULL after HBMCHECK_NO_MEMORY alone, and where an argument here is NULL or no command. */
 hbmcheck_status hbmcheck_run(const hbmcheck_case *c, const char *command, int n, const char *const *options,
                              const hbmcheck_monitor *monitor, hbmcheck_result **out);
 
