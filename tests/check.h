@@ -88,8 +88,8 @@ static inline int check_ended(int failed)
 static bool check_long __attribute__((unused));
 #define CHECK_LONG_TRIALS(n) (check_long ? CHECK_TRIALS(n) : (n) / 8)
 
-/* The function that runs a file's tests, which returns what check_ended does: CHECK_ENTRY_FUNCTION { ... }. In a program
- * of several files tests/CMakeLists.txt names it, and tests/folder.c calls it; else it is main. */
+/* The function that runs a file's tests, which returns what check_ended does: CHECK_ENTRY_FUNCTION { ... }. In a
+ * program of several files tests/CMakeLists.txt names it, and tests/folder.c calls it; else it is main. */
 #ifndef CHECK_ENTRY
 #define CHECK_ENTRY main
 #endif

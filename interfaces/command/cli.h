@@ -101,8 +101,8 @@ struct cli_common {
 /* Runs a command, argv[0] its name; its exit code. Ends the program on --help, --version and wrong usage (64). */
 int cli_run(const cli_command *self, int argc, char **argv);
 
-/* In its parts, for call.c. An option's value into the command's own struct, which cli_own_options makes, to free (NULL:
- * no memory); false, and why it cannot be. Then the command, its options read; its exit code. */
+/* In its parts, for call.c. An option's value into the command's own struct, which cli_own_options makes, to free
+ * (NULL: no memory); false, and why it cannot be. Then the command, its options read; its exit code. */
 void *cli_own_options(const cli_command *self);
 bool cli_read_value(cli_common *common, const cli_option *o, const char *text, char why[CASE_MESSAGE]);
 int cli_run_parsed(cli_common *common);

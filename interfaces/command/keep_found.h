@@ -21,7 +21,8 @@ typedef struct keep_found {
   pthread_t thread;
 } keep_found;
 
-/* In a call by a program signals are the program's. Where the system has no more locks or threads, the program ends at once after a signal, as it would by itself. */
+/* In a call by a program signals are the program's. Where the system has no more locks or threads, the program ends at
+ * once after a signal, as it would by itself. */
 void keep_found_begin(keep_found *k, const cli_common *common, int (*write)(void *self), void *self);
 
 /* Does not return while the thread is writing: the program ends there. */

@@ -6,7 +6,7 @@
  *     N_j = max(kn (v_j + gap), 0), N0_j = max(kn gap, 0)
  *     T_j: a spring kt behind a Coulomb slider, |T_j| <= mu N_j
  *
- *     hbmcheck_case_read or _parse     what a case file says: oscillator or structure, contacts, sweep, settings, limits
+ *     hbmcheck_case_read or _parse     what a case file says: oscillator or structure, contacts, sweep, limits
  *     hbmcheck_run                     a command of `hbmcheck` on it, its options as on the command line
  *     hbmcheck_result_table            what it found: tables, with the rows, columns, names and numbers of its csv
  *
@@ -161,7 +161,7 @@ int hbmcheck_table_rows(const hbmcheck_table *t);
 /* Column j, from 0: as many members of *out as its size has. HBMCHECK_OK; HBMCHECK_BAD_INPUT: there is none. */
 hbmcheck_status hbmcheck_table_column(const hbmcheck_table *t, int j, hbmcheck_column *out);
 
-/* The number in that row, from 0, and the column of that name: of HBMCHECK_INTEGER or _REAL. NaN where there is none. */
+/* The number in that row, from 0, and the column of that name: of kind HBMCHECK_INTEGER or _REAL. NaN: there is none. */
 double hbmcheck_table_number(const hbmcheck_table *t, int row, const char *column);
 
 /* The text there; NULL where there is none. */

@@ -1,5 +1,5 @@
-/* test_trace.c - which parts a list names, what is said of a word that is none, and that a line is written only where it
- * was asked for. */
+/* test_trace.c - which parts a list names, what is said of a word that is none, and that a line is written only where
+ * it was asked for. */
 #include "tests/check.h"
 
 #include "numerics/base/trace.h"

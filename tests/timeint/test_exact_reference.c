@@ -3,7 +3,8 @@
 
 #include "tests/timeint/reference_rows.h"
 
-/* Of every third scene; in the long run of all. To 1e-8: the table is "good to about 1e-9", and so is ours, transient.tolerance = 1e-9 of the motion. */
+/* Of every third scene; in the long run of all. To 1e-8: the table is "good to about 1e-9", and so is ours,
+ * transient.tolerance = 1e-9 of the motion. */
 static void every_row(CHECK_STATE)
 {
   for (int i = 0; i < N_REFERENCE_SCENES; i += check_long ? 1 : 3) {
