@@ -161,7 +161,8 @@ int hbmcheck_table_rows(const hbmcheck_table *t);
 /* Column j, from 0: as many members of *out as its size has. HBMCHECK_OK; HBMCHECK_BAD_INPUT: there is none. */
 hbmcheck_status hbmcheck_table_column(const hbmcheck_table *t, int j, hbmcheck_column *out);
 
-/* The number in that row, from 0, and the column of that name: of kind HBMCHECK_INTEGER or _REAL. NaN: there is none. */
+/* The number in that row, from 0, and the column of that name, of kind HBMCHECK_INTEGER or _REAL; NaN: there is
+ * none. */
 double hbmcheck_table_number(const hbmcheck_table *t, int row, const char *column);
 
 /* The text there; NULL where there is none. */

@@ -1,4 +1,5 @@
-/* test_arguments.c - HBMCHECK_BAD_INPUT: nothing is written but NULL into the place of a handle; what asks takes NULL. */
+/* test_arguments.c - HBMCHECK_BAD_INPUT: nothing is written but NULL into the place of a handle; what asks takes
+ * NULL. */
 #include "tests/library/case2.h"
 
 #define BAD(call) assert_int_equal((call), HBMCHECK_BAD_INPUT)
