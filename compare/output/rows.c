@@ -362,7 +362,8 @@ static const char *const of_frf[] = {
 
 static const char *const of_transient[] = {
     "omega", "steps", "period", "multiplier", "free_sliders", "period_multiple", "periods", "rms",
-    "from_regularisation", "min", "max", "method", "contact", "lyapunov", "harmonic_1", "closure", "start", "mean", "second_frequency", NULL};
+    "from_regularisation", "min", "max", "method", "contact", "lyapunov", "harmonic_1", "closure", "start",
+    "mean", "second_frequency", NULL};
 
 static const char *const of_compare[] = {
     "omega", "hbm_predicted_harmonic_1", "hbm_predicted_waveform", "transient_predicted_harmonic_1",
