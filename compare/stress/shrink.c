@@ -32,7 +32,8 @@ static bool take(shrinker *s, scene *sc, scene *smaller)
   double *x = malloc((size_t)t->n * sizeof *x);
   bool finds = false, adrift = false;
   stress_result r;
-  if (!t->is_oscillator && s->status == HC_OK) s->status = x ? structure_free_motion(t, false, x, &adrift) : HC_NO_MEMORY;
+  if (!t->is_oscillator && s->status == HC_OK)
+    s->status = x ? structure_free_motion(t, false, x, &adrift) : HC_NO_MEMORY;
   free(x);
   if (s->status == HC_OK && !adrift) {
     s->status = stress_scene(smaller, s->kind, s->seconds, s->monitor, &r);

@@ -528,7 +528,9 @@ static const char *advice_for(const scene *sc, cli_solver solver, hc_status st, 
   if (solver == CLI_TRANSIENT && st == HC_NOT_SETTLED && !scene_is_oscillator(sc) && advice_on_undamped_mode(sc, text))
     return text;
   if (st == HC_NOT_FINITE) /* of neither side's settings */
-    return snprintf(text, ADVICE_TEXT, "%s", !scene_is_oscillator(sc) ? ADVICE_ON_STRUCTURE : advice_on_size(*sc->structure->damping.v)), text;
+    return snprintf(text, ADVICE_TEXT, "%s",
+                    !scene_is_oscillator(sc) ? ADVICE_ON_STRUCTURE : advice_on_size(*sc->structure->damping.v)),
+           text;
   if (solver != CLI_TRANSIENT) advice_for_hbm(&sc->hbm, st, text);
   if (solver == CLI_HBM || !*advice_for_transient(&sc->transient, st, other)) return text;
   snprintf(text, ADVICE_TEXT, "%s",
@@ -566,7 +568,8 @@ bool cli_it_creeps(const scene *sc, double omega, const hc_monitor *monitor, cha
   hc_status st = scene_setup(sc, &setup);
   if (st == HC_OK) st = steady_state_creeps(&setup, omega, monitor, &response, drift);
   scene_setup_clear(&setup);
-  if (st == HC_CREEPS && !scene_is_oscillator(sc)) structure_response_name(sc->structure, response, name, RESPONSE_NAME);
+  if (st == HC_CREEPS && !scene_is_oscillator(sc))
+    structure_response_name(sc->structure, response, name, RESPONSE_NAME);
   return st == HC_CREEPS;
 }
 

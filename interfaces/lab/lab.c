@@ -77,9 +77,9 @@ int lab_case(lab *l)
   const scene *sc = &l->sc;
   const scene_structure *s = sc->structure;
   const hbm_settings *h = &sc->hbm;
-  hc_status st = LAB_ADD(l, *s->mass.v, *s->damping.v, *s->stiffness.v, s->loads->amplitude, sc->omega_from,
-                         sc->omega_to, h->harmonics, h->samples, h->keep_mean, h->force == HBM_FORCE_SAMPLED,
-                         h->restart == HBM_RESTART_SAMPLE);
+  hc_status st =
+      LAB_ADD(l, *s->mass.v, *s->damping.v, *s->stiffness.v, s->loads->amplitude, sc->omega_from, sc->omega_to,
+              h->harmonics, h->samples, h->keep_mean, h->force == HBM_FORCE_SAMPLED, h->restart == HBM_RESTART_SAMPLE);
   for (int j = 0; j < s->n_contacts && st == HC_OK; ++j) {
     const scene_contact *c = &s->contacts[j].given;
     double *row = lab_row(l);
@@ -111,7 +111,8 @@ void lab_exact_law(scene *sc)
   sc->transient.law = TRANSIENT_LAW_EXACT;
   sc->transient.method = TRANSIENT_METHOD_CLOSED_FORM;
   for (int j = 0; j < scene_contact_count(sc); ++j)
-    if (scene_contact_law(scene_contact_at(sc, j)).smooth != CONTACT_KINKED) sc->transient.method = TRANSIENT_METHOD_CVODE;
+    if (scene_contact_law(scene_contact_at(sc, j)).smooth != CONTACT_KINKED)
+      sc->transient.method = TRANSIENT_METHOD_CVODE;
 }
 
 hc_status lab_solver(const scene *sc, hbm_solver **out)

@@ -154,8 +154,8 @@ static hc_status check_damping(case_reader *r)
 
 /* ---- loads and contacts ---- */
 
-/* A moving base is the one load with omega, and a structure says where it moves it; an oscillator's moves it if it moves
- * itself. */
+/* A moving base is the one load with omega. A structure says which DOFs it moves; an oscillator has a way of the base
+ * while that moves. */
 static hc_status check_base(case_reader *r)
 {
   scene_structure *s = r->sc.structure;

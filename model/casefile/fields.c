@@ -49,7 +49,7 @@ static const field_section sections[] = {
 };
 
 /* Shorthands for the rows below. */
-#define SCENE(member)   .offset = offsetof(scene, member)
+#define SCENE(member) .offset = offsetof(scene, member)
 #define OSCILLATOR(pointer, within, more)                                                                              \
   .flags = FIELD_OSCILLATOR | (more), .offset = offsetof(scene_structure, pointer), .behind = (within)
 #define CONTACT(member) .flags = FIELD_IN_CONTACT, .offset = offsetof(scene_contact, member)

@@ -46,7 +46,10 @@ double scene_max_stiffness(const scene *sc);
 static inline bool scene_is_oscillator(const scene *sc) { return sc->structure->is_oscillator; }
 
 static inline int scene_contact_count(const scene *sc) { return sc->structure->n_contacts; }
-static inline const scene_contact *scene_contact_at(const scene *sc, int j) { return &sc->structure->contacts[j].given; }
+static inline const scene_contact *scene_contact_at(const scene *sc, int j)
+{
+  return &sc->structure->contacts[j].given;
+}
 
 /* Contact j in the model of the scene: the first of its one or two contacts there (contact_pair, model.h). */
 static inline int scene_model_contact(const scene *sc, int j) { return structure_model_contact(sc->structure, j); }

@@ -74,7 +74,7 @@ typedef struct structure_node { /* of the finite-element mesh: which degree of f
 typedef struct scene_structure {
   int n;
   bool is_oscillator; /* written with `oscillator`: n = 1, one load, contacts by_angle */
-  bool is_sparse; /* case_read_sparse: its matrices are kept as they came, and neither checked nor resolved */
+  bool is_sparse;     /* case_read_sparse: its matrices are kept as they came, and neither checked nor resolved */
   structure_matrix mass, stiffness, damping; /* damping.v: what results from any kind of damping */
   structure_damping how;
   double rayleigh[2]; /* alpha [1/time], beta [time] */

@@ -184,9 +184,8 @@ hc_status yaml_contact_read(case_reader *r, const yaml_node_t *node, int j)
 {
   scene_structure *s = r->sc.structure;
   hc_status st = check_mapping(r, node, "contacts", j,
-                               s->is_oscillator
-                                   ? "{name: ..., tangential_stiffness: ..., ...}"
-                                   : "{tangential_stiffness: 100, friction: 0.3, preload: 5, tangent: 1}");
+                               s->is_oscillator ? "{name: ..., tangential_stiffness: ..., ...}"
+                                                : "{tangential_stiffness: 100, friction: 0.3, preload: 5, tangent: 1}");
   if (st != HC_OK) return st;
   if (j == s->n_contacts && !structure_add_contact(s)) return case_out_of_memory(r);
   structure_contact *c = &s->contacts[j];

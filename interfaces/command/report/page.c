@@ -255,11 +255,12 @@ static void write_piece(page *p, const char *name, size_t length)
   for (size_t i = 0; i < sizeof tables / sizeof *tables; ++i) {
     const struct row_table *t = &tables[i];
     if (strlen(t->name) != length || memcmp(t->name, name, length) != 0) continue;
-    const bool shown = t->kind == ROWS_PROVE ? t->n > 0 : t->kind != ROWS_COMPARE_CONTACT || !scene_is_oscillator(d->sc);
+    const bool shown =
+        t->kind == ROWS_PROVE ? t->n > 0 : t->kind != ROWS_COMPARE_CONTACT || !scene_is_oscillator(d->sc);
     if (shown)
       html_rows(p->to, t->caption, t->kind,
-                (d->sc->in_cycles ? ROWS_IN_CYCLES : 0u) | (!scene_is_oscillator(d->sc) ? ROWS_RESPONSES : 0u), t->n, t->rows,
-                without);
+                (d->sc->in_cycles ? ROWS_IN_CYCLES : 0u) | (!scene_is_oscillator(d->sc) ? ROWS_RESPONSES : 0u), t->n,
+                t->rows, without);
     return;
   }
   for (size_t i = 0; i < sizeof pieces / sizeof *pieces; ++i) {
