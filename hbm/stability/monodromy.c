@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "hbm/stability/variation.h"
+#include "numerics/base/trace.h"
 #include "numerics/floquet.h"
 
 struct monodromy {
@@ -71,6 +72,7 @@ hc_status monodromy_stability(monodromy *w, const contact_forces *orbit, double 
   if (st != HC_OK) return st;
   summarise(2 * w->v->n, w->count, w->lambda, out);
   out->of_motion = !variation_never_changes(w->v);
+  TRACE(stability, "omega %.9g: %d multipliers, the largest %.6g%+.6gi", omega, w->count, out->re, out->im);
   return HC_OK;
 }
 

@@ -8,7 +8,9 @@
 #define TRACE_PARTS(X) /* name, what a line of it tells */                                                             \
   X(curve, "a step of a response curve: where, how long, why refused")                                                 \
   X(newton, "Newton's method: the residual at each matrix, and how a solve ended")                                     \
-  X(first, "each way to a first solution, and whether it led to one")
+  X(first, "each way to a first solution, and whether it led to one")                                                  \
+  X(steady, "time integration: chord steps, tolerances while marching, how each search for an orbit ended")            \
+  X(stability, "the largest multiplier of a solution by harmonic balance")
 
 #define TRACE_ENUM(name, text) TRACE_##name,
 typedef enum trace_part { TRACE_PARTS(TRACE_ENUM) TRACE_COUNT } trace_part;

@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "numerics/base/trace.h"
 #include "timeint/steady/shoot.h"
 
 enum {
@@ -40,6 +41,7 @@ static hc_status by_chords(period_map *map, double reach, double enough, double 
     if (st != HC_OK) return st;
     const double residual = timeint_distance(ti, z, map->f);
     const bool near_rest = has_slider_nearly_at_rest(map);
+    TRACE(steady, "omega %.9g: chord step %d: residual %.3g", ti->omega, steps, residual / ti->length);
     if (residual <= enough && !near_rest) return HC_OK;
     idle = residual <= chord_contracts * least ? 0 : idle + 1;
     least = fmin(least, residual);

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "numerics/base/trace.h"
 #include "timeint/steady/escape.h"
 #include "timeint/steady/timeint_private.h"
 
@@ -212,6 +213,7 @@ static hc_status use_tolerance(timeint *ti, progress *p, double tolerance)
 {
   p->periods = 0;
   settle_restart(ti->settle); /* another tolerance has another fixed point */
+  TRACE(steady, "omega %.9g: marching, steps of %.3g from period %d on", ti->omega, tolerance, ti->periods);
   return timeint_set_tolerance(ti, tolerance);
 }
 
@@ -287,5 +289,8 @@ hc_status settle_by_integration(timeint *ti, const hc_monitor *monitor, timeint_
   }
   const hc_status why = creeps ? HC_CREEPS : escape_grows(ti) ? HC_UNBOUNDED : HC_NOT_SETTLED;
   if (st == HC_OK && (creeps || ti->periods < most)) st = measure_orbit(ti, 1, &p, r);
-  return st == HC_OK && r->period_multiple == 0 ? why : st;
+  if (st == HC_OK && r->period_multiple == 0) st = why;
+  TRACE(steady, "omega %.9g: marched %d periods, closure %.3g: %s", ti->omega, ti->periods, r->closure,
+        hc_status_text(st));
+  return st;
 }

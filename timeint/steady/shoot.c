@@ -8,6 +8,7 @@
 
 #include <kinsol/kinsol.h>
 
+#include "numerics/base/trace.h"
 #include "numerics/floquet.h"
 #include "numerics/newton.h"
 #include "numerics/sundials_compat.h"
@@ -294,6 +295,9 @@ static void note_found(shoot *s, const shoot_report *report)
 static hc_status conclude(shoot *s, hc_status st, double goal, shoot_report *report)
 {
   if (st == HC_OK) st = shoot_finish(s, goal, report);
+  TRACE(steady, "omega %.9g: orbit of %d periods, %.3g from the start: multiplier %.6g, closure %.3g: %s", s->ti->omega,
+        s->map->k, report->moved / s->ti->length, cabs(report->multiplier), report->distance / s->ti->length,
+        hc_status_text(st));
   if (st != HC_OK) memcpy(s->ti->y, s->map->before, sizeof *s->best * (size_t)s->n);
   return st;
 }
