@@ -15,6 +15,7 @@ typedef struct made {
 static made *start(int n)
 {
   made *m = calloc(1, sizeof *m);
+  m->sc = scene_oscillator(1, 1, 1, 1);
   m->sc.gate.most = (discrepancy){1e-3, 1e-3, 1e-3, 5e-3};
   m->sc.transient.tolerance = 1e-9;
   m->c = (comparison){.n_rows = n, .rows = m->rows};
