@@ -205,7 +205,10 @@ hc_status hbm_trace_all(hbm_solver *s, double from, double to, const hc_monitor 
   if (curve->n) return HC_BAD_INPUT;
   first.watch = curve->watch;
   const hc_status main = hbm_trace(s, from, to, monitor, &first);
-  if (main == HC_BAD_INPUT) return main;
+  if (main == HC_BAD_INPUT) {
+    hbm_curve_free(&first);
+    return main;
+  }
   hbm_curve_measure_by(curve, first.metric, first.omega_scale);
   curve->n_coef = first.n_coef;
   hc_status st = first.n > 0 ? hbm_curve_add_part(curve, &first, HBM_PART_FROM_FIRST) : HC_OK;

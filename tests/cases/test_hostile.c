@@ -98,6 +98,7 @@ static void files_are_closed_again(CHECK_STATE)
   setrlimit(RLIMIT_NOFILE, &few);
   for (int i = 0; i < 40; ++i) {
     assert_int_equal(case_read(SOURCE_DIR "/cases/paper/case2.yaml", 0, NULL, &sc, &err), HC_OK);
+    case_clear(&sc);
     assert_int_equal(case_read(SOURCE_DIR, 0, NULL, &sc, &err), HC_IO);
     assert_int_equal(case_read(SOURCE_DIR "/cases/README.md", 0, NULL, &sc, &err), HC_BAD_INPUT);
   }
@@ -175,7 +176,7 @@ static void mutants_are_read_or_refused(CHECK_STATE)
     hc_status st = case_parse(
         "f", text, (size_t)random_int(&s, 0, 9) ? sizeof good - 1 : (size_t)random_int(&s, 0, sizeof good - 1), 0, NULL,
         &sc, &err);
-    if (st == HC_OK) ++fine;
+    if (st == HC_OK) ++fine, case_clear(&sc);
     else ++bad, assert_int_equal(st, HC_BAD_INPUT), check_message(&err);
   }
   assert_true(fine > 100 && bad > 1000); /* both happen */

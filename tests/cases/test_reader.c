@@ -64,6 +64,7 @@ static void harmless_forms_are_read(CHECK_STATE)
   case_error err;
   assert_int_equal(case_parse("dir.d/caf\xC3\xA9.v2.yaml", SMALLEST, strlen(SMALLEST), 0, NULL, &sc, &err), HC_OK);
   assert_string_equal(sc.title, "caf\xC3\xA9.v2");
+  case_clear(&sc);
 }
 
 /* omega = 2 pi f, one rounding in the constant and one in the product */

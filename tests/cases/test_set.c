@@ -63,6 +63,7 @@ static void a_contact_may_be_appended_field_by_field(CHECK_STATE)
                        "contacts[0].angle_deg=0"};
   case_error err;
   CHECK_FILLED(scene, sc, case_parse("f", SMALLEST, strlen(SMALLEST), 4, set, &sc, &err));
+  scene_kept(sc);
   assert_true(sc.structure->n_contacts == 1 && sc.structure->contacts[0].given.law.kt == 1 &&
               sc.structure->contacts[0].given.law.kn == 2 && sc.structure->contacts[0].given.law.gap == 0);
   assert_int_equal(case_parse("f", SMALLEST, strlen(SMALLEST), 3, set, &sc, &err), HC_BAD_INPUT);
@@ -78,13 +79,17 @@ static void later_ones_win_and_rivals_give_way(CHECK_STATE)
   case_error err;
   const char *text = SMALLEST "compare: {omega: [1, 2]}\n";
   CHECK_FILLED(scene, sc, case_parse("f", text, strlen(text), 1, set, &sc, &err));
+  scene_kept(sc);
   assert_true(sc.omega_from > 6.28 && sc.omega_from < 6.29 && sc.compare.omega.n == 2);
   assert_int_equal(case_parse("f", text, strlen(text), 3, set, &sc, &err), HC_OK);
+  scene_kept(sc);
   assert_true(sc.omega_from == 4 && sc.omega_to == 5 && sc.compare.omega.n == 0 && sc.compare.points == 9);
   assert_int_equal(case_parse("f", text, strlen(text), 4, set, &sc, &err), HC_OK);
+  scene_kept(sc);
   assert_true(sc.compare.omega.n == 1 && sc.compare.omega.v[0] == 7 && sc.compare.points == 20);
   /* 8 samples in between are nobody's business */
   assert_int_equal(case_parse("f", text, strlen(text), 7, set, &sc, &err), HC_OK);
+  scene_kept(sc);
   assert_true(sc.compare.omega.n == 0 && sc.compare.points == 11 && sc.hbm.samples == 64);
 }
 
@@ -118,6 +123,7 @@ static void the_one_given_last_is_blamed(CHECK_STATE)
              *sampled = SMALLEST "hbm: {force: sampled}\n";
   case_error err;
   CHECK_FILLED(scene, sc, case_parse("f", sampled, strlen(sampled), 2, set, &sc, &err));
+  scene_kept(sc);
   assert_int_equal(case_parse("f", sampled, strlen(sampled), 3, set, &sc, &err), HC_BAD_INPUT);
   assert_int_equal(strncmp(err.message, "--set hbm.harmonics=5: 9 samples", 32), 0);
 }
@@ -138,6 +144,7 @@ static void sixteen_contacts_and_no_more(CHECK_STATE)
     list[i] = set[i];
   }
   CHECK_FILLED(scene, sc, case_parse("f", SMALLEST, strlen(SMALLEST), 16, list, &sc, &err));
+  scene_kept(sc);
   assert_int_equal(sc.structure->n_contacts, 16);
   assert_int_equal(case_parse("f", SMALLEST, strlen(SMALLEST), 17, list, &sc, &err), HC_BAD_INPUT);
   assert_non_null(strstr(err.message, "the case has 16 contacts, expected an index 0..15"));

@@ -3,7 +3,7 @@
 
 /* ---- made up --------------------------------------------------------------------------------------- */
 
-static const model_contact springs[2] = {{.law = {.kt = 10}}, {.law = {.kt = 10}}};
+static const model_contact springs[3] = {{.law = {.kt = 10}}, {.law = {.kt = 10}}, {.pair = 0}}; /* ends empty */
 
 /* Two contacts that slip, of work 2 and 1. */
 static void slipping(contact_comparison c[2])

@@ -6,6 +6,7 @@
 
 #include "model/casefile/case_file.h"
 #include "tests/check.h"
+#include "tests/oscillator.h"
 
 #define SMALL SOURCE_DIR "/tests/faults/small"
 
@@ -17,7 +18,7 @@ static inline scene small_scene(const char *const *set)
   int n = 0;
   while (set && set[n]) ++n;
   if (case_read(SMALL "/small.yaml", n, set, &sc, &err) != HC_OK) fail_msg("%s", err.message);
-  return sc;
+  return scene_kept(sc);
 }
 
 /* What is being tried; told if it hangs. */

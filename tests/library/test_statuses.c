@@ -29,11 +29,23 @@ static struct {
   int rows_before; /* response_row_of: rows that are measured before */
 } forced;
 
+/* What fails has made nothing: a scene, a solver. */
+static void release_case_parse(scene *sc) { case_clear(sc); }
+static void release_case_read_sparse(scene *sc) { case_clear(sc); }
+static void release_hbm_solver_new(hbm_solver **s) { hbm_solver_free(*s), *s = NULL; }
+static void release_nothing(void *out) { (void)out; }
+#define release_hbm_specials       release_nothing
+#define release_response_summarise release_nothing
+#define release_gate_judge         release_nothing
+#define release_scene_setup        release_nothing
+
 #define ANSWER(name, parameters, arguments)                                                                            \
   WRAP(hc_status, name, parameters)                                                                                    \
   {                                                                                                                    \
     hc_status st = __real_##name arguments;                                                                            \
-    return forced.name != HC_OK ? forced.name : st;                                                                    \
+    if (forced.name == HC_OK) return st;                                                                               \
+    if (st == HC_OK) release_##name(out);                                                                              \
+    return forced.name;                                                                                                \
   }
 WRAPPED(ANSWER)
 

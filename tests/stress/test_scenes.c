@@ -51,6 +51,7 @@ static void the_whole_of_every_range_is_drawn(CHECK_STATE)
       facing = 0;
   for (long i = 0; i < MANY; ++i) {
     CHECK_FILLED(scene, sc, stress_scenes_at(s, i, &sc));
+    scene_kept(sc);
     ++contacts[sc.structure->n_contacts];
     ++mean[sc.hbm.keep_mean];
     double ratio = *sc.structure->damping.v / (2 * sqrt(*sc.structure->mass.v * *sc.structure->stiffness.v));
@@ -88,11 +89,11 @@ static void a_scene_comes_again_from_seed_and_index(CHECK_STATE)
 {
   stress_scenes *a = sequence(7), *b = sequence(7), *c = sequence(8);
   scene first, again, other;
-  for (long i = 0; i < 50; ++i) assert_int_equal(stress_scenes_at(a, i, &first), HC_OK);
-  assert_int_equal(stress_scenes_at(b, 80, &again), HC_OK);
-  assert_int_equal(stress_scenes_at(b, 49, &again), HC_OK);
+  for (long i = 0; i < 50; ++i) assert_int_equal(stress_scenes_at(a, i, &first), HC_OK), scene_kept(first);
+  assert_int_equal(stress_scenes_at(b, 80, &again), HC_OK), scene_kept(again);
+  assert_int_equal(stress_scenes_at(b, 49, &again), HC_OK), scene_kept(again);
   assert_true(scene_equals(&first, &again));
-  assert_int_equal(stress_scenes_at(c, 49, &other), HC_OK);
+  assert_int_equal(stress_scenes_at(c, 49, &other), HC_OK), scene_kept(other);
   assert_true(*other.structure->mass.v != *first.structure->mass.v &&
               other.structure->contacts[0].given.law.kn != first.structure->contacts[0].given.law.kn);
   assert_int_equal(stress_scenes_at(a, -1, &first), HC_BAD_INPUT);
@@ -115,6 +116,7 @@ static void every_scene_is_a_case_file(CHECK_STATE)
     if (case_parse("scene", text, strlen(text), 0, NULL, &back, &err) != HC_OK)
       fail_msg("scene %ld: %s", i, err.message);
     assert_true(scene_equals(&sc, &back));
+    case_clear(&sc), case_clear(&back);
   }
   stress_scenes_free(s);
 }
