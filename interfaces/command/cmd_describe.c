@@ -80,10 +80,11 @@ static void write_of_contact(const scene_structure *s, const field *f, const str
 
 /* ---- one value ------------------------------------------------------------------------------------- */
 
-static case_place place_of(const scene_structure *s, const field *f, int j)
+/* Of contact c, NULL: of none; or of load j. */
+static case_place place_of(const scene_structure *s, const field *f, const structure_contact *c, int j)
 {
+  if (c) return c->place;
   if (f->flags & FIELD_IN_LOAD) return s->loads[j].place;
-  if (f->flags & FIELD_IN_CONTACT) return s->contacts[j].place;
   if (!strcmp(f->name, "mass")) return s->mass.place;
   if (!strcmp(f->name, "stiffness")) return s->stiffness.place;
   if (!strncmp(f->name, "damping", 7)) return s->damping.place;
@@ -228,7 +229,7 @@ static hc_status put_value(table *t, const described *d, const field *f, int j)
   if (c && !strcmp(f->name, "points") && !field_is_of_law(f, &c->given)) return HC_OK;
   if (c && strcmp(f->name, "points") && strcmp(f->name, "law") && !field_is_echoed(f, &c->given)) return HC_OK;
   const bool part = c || f->flags & FIELD_STRUCTURE, its_place = part && !s->is_oscillator;
-  const case_place at = its_place ? place_of(s, f, j) : case_field_place(d->places, f, c ? j : -1);
+  const case_place at = its_place ? place_of(s, f, c, j) : case_field_place(d->places, f, c ? j : -1);
   bool counts = part || case_field_counts(f, d->sc);
   FILE *to = open_memstream(&text, &size);
   /* The value of f as a case file has it, text without quotes; of entry j of a list. */

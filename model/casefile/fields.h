@@ -89,9 +89,10 @@ static inline bool field_is_in_list(const field *f) { return f->flags & (FIELD_I
  * FIELD_PART. */
 static inline void *field_place(const field *f, void *base)
 {
-  char *at = (char *)base + f->offset;
-  if (f->flags & FIELD_OSCILLATOR) memcpy(&at, at, sizeof at), at += f->behind;
-  return at;
+  void *at = (char *)base + f->offset, *structure;
+  if (!(f->flags & FIELD_OSCILLATOR)) return at;
+  memcpy(&structure, at, sizeof(void *));
+  return (char *)structure + f->behind;
 }
 static inline const void *field_look(const field *f, const void *base) { return field_place(f, (void *)(size_t)base); }
 

@@ -444,8 +444,9 @@ hc_status structure_model(const scene_structure *s, model **out)
   model_contact *to = m->contacts;
   for (int j = 0; j < s->n_contacts; ++j) {
     const structure_contact *c = &s->contacts[j];
-    const double *across = c->by_angle ? (const double[]){1} : c->normal;
-    add_outer(s->n, scene_contact_slope(&c->given), across, across, m->stiffness);
+    static const double along[1] = {1};
+    const double *across = c->by_angle ? along : c->normal; /* by_angle: n = 1 */
+    add_outer(c->by_angle ? 1 : s->n, scene_contact_slope(&c->given), across, across, m->stiffness);
     if (scene_contact_is_composed(&c->given))
       scene_contact_put(&c->given, s->n, across, to), to += scene_contact_parts(&c->given);
     else if (is_pair(s, c)) set_pair(s, c, to), to += 2;
