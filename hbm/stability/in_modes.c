@@ -1,12 +1,13 @@
 /* in_modes.c - multipliers of a large structure, all intervals in its modes (monodromy.h).
  *
- * Of all columns few outlast the first part of the period. After each part phi is factored, with rows as roots of
- * energies, phi = basis carry, but for what rounding leaves, and the basis alone goes on. With phi of the basis at the
- * end, the map of the period is phi carry, and carry phi, smaller, has the same multipliers but for 0.
+ * Most states decay to rounding within the first part of the period. After each part phi, its rows scaled to roots of
+ * energies, is factored to rounding as phi = basis carry, and only the columns of the basis are integrated further.
+ * With phi of the basis at the end, the map of the period is phi carry, and carry phi, smaller, has the same
+ * multipliers but for 0.
  *
- * Of large structures fewer than a hundredth of all states outlast a part of the period; they are found from as many
- * random ones. The period then begins behind that part, with a basis of it, and its map is that of the basis's
- * coordinates: cyclic products have the same multipliers but for 0. */
+ * In a large structure less than a hundredth of the states outlasts a part of the period. Their space is found by
+ * integrating as many random columns. The period then begins behind that part, with a basis of it, and its map is
+ * that of the basis's coordinates: cyclic products have the same multipliers but for 0. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -310,7 +311,8 @@ static hc_status follow_survivors(in_modes *w, int end)
 
 /* ---- multipliers ------------------------------------------------------------------------------------------ */
 
-/* Steps for this orbit, held against the contacts' states in the middle of each part of the period. */
+/* Step widths for this orbit, from omega and the number of its changes of contact states; they are then made to hold
+ * for the states in the middle of each part of the period. */
 static hc_status choose_widths(in_modes *w)
 {
   variation *v = &w->v;

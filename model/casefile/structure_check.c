@@ -54,13 +54,17 @@ static void stuck_stiffness(const scene_structure *s, bool at_rest, double *A)
   memcpy(A, s->stiffness.v, (size_t)s->n * (size_t)s->n * sizeof *A);
   for (int j = 0; j < s->n_contacts; ++j) {
     const structure_contact *c = &s->contacts[j];
+    const moving_contact moved = scene_moving_contact(&c->given); /* by_angle: n = 1 */
+    const double one = 1, *across = c->by_angle ? &one : c->normal, *tangent = c->by_angle ? moved.cu : c->tangent,
+                 *normal = c->by_angle ? moved.cv : c->normal;
+    const int n = c->by_angle ? 1 : s->n;
     const bool holds = c->given.law.mu > 0 && (c->given.law.kn > 0 || c->given.preload > 0);
     const double smooth = scene_contact_restores(&c->given, at_rest) ? curved : 0;
-    add_outer(s->n, scene_contact_stiffness(&c->given, at_rest) + smooth, c->normal, c->normal, A);
+    add_outer(n, scene_contact_stiffness(&c->given, at_rest) + smooth, across, across, A);
     if (at_rest && !is_pressed(&c->given)) continue;
-    add_outer(s->n, holds ? c->given.law.kt : 0, c->tangent, c->tangent, A);
-    add_outer(s->n, holds ? c->given.law.kt : 0, c->tangent_2, c->tangent_2, A);
-    add_outer(s->n, c->given.law.kn, c->normal, c->normal, A);
+    add_outer(n, holds ? c->given.law.kt : 0, tangent, tangent, A);
+    add_outer(n, holds ? c->given.law.kt : 0, c->tangent_2, c->tangent_2, A);
+    add_outer(n, c->given.law.kn, normal, normal, A);
   }
 }
 

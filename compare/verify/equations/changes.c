@@ -361,7 +361,8 @@ static void turn_one_side(changing *c, model_contact *k)
   turn_last(c->own->n, k->tangent), turn_last(c->own->n, k->normal);
 }
 
-/* Of two tangents: each limited by itself or both together, or without friction along one of them. */
+/* Of a contact with two tangents: one limit for both (circle) or one for each; and no friction along the one called
+ * `without`. */
 static void change_pair(model_contact *k, bool circle, contact_pair without)
 {
   if (k->pair == CONTACT_ALONE || k->pair == CONTACT_MORE) return;

@@ -11,8 +11,9 @@
  * Exact forces come first. Sampled ones start Newton from the exact ones' solutions, at a small part of what the
  * sampled curve would cost; the likeliest are followed along their own curves, which have solutions that no exact one
  * is near to. A number of harmonics counts as a cause where its solutions are farther than the gate from those of many.
- * Of a structure all but the truth comes by Newton from the truth, first at few of the points, and the plainest
- * mistakes go first: its curves are dearer, and more may be wrong. */
+ * The curves of a structure take longer and more can be wrong with it. Therefore only the truth is computed along a
+ * curve; solutions with a mistake come by Newton from those of the truth, first at few of the points, the most frequent
+ * mistakes first. */
 #include "compare/verify/search/search.h"
 
 #include <math.h>

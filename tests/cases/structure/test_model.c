@@ -266,6 +266,17 @@ static void what_contacts_hold_is_held(CHECK_STATE)
       NULL)); /* walls and units */
 }
 
+/* The angle says where a contact of one degree of freedom acts, which has no vectors then. */
+static void what_a_contact_at_an_angle_holds_is_held(CHECK_STATE)
+{
+  static const char text[] = "structure: {mass: [1], damping: [0.1], stiffness: [0]}\n" SWEEP
+                             "contacts:\n  - {tangential_stiffness: 10, normal_stiffness: 10, friction: 0.5, gap: 0.3, "
+                             "angle_deg: 30}\n";
+  model_free(model_of(text, NULL));
+  model_free(model_of(text, "contacts[0].tangential_stiffness=0")); /* the normal spring alone */
+  refused(text, "contacts[0].normal_stiffness=0", "", "nothing holds the motion {1: 1}");
+}
+
 /* A curved spring holds, though K and its stiffness at rest are singular, however stiff K is; one that only pushes
  * away, or acts along another motion, does not. */
 static void what_a_polynomial_holds_is_held(CHECK_STATE)
@@ -350,5 +361,6 @@ CHECK_TESTS("structure.model", 60, matrices_are_by_columns, what_is_symmetric_bu
             one_degree_of_freedom_is_the_oscillator_to_the_bit, a_moving_base_is_the_last_load,
             contacts_have_directions_and_laws, loads_of_a_harmonic_are_summed, quarters_of_a_turn_are_exact,
             degrees_of_freedom_go_by_name_number_or_node, files_of_matrices_lie_beside_the_case,
-            modal_damping_damps_every_mode_as_asked, what_contacts_hold_is_held, what_a_polynomial_holds_is_held,
+            modal_damping_damps_every_mode_as_asked, what_contacts_hold_is_held,
+            what_a_contact_at_an_angle_holds_is_held, what_a_polynomial_holds_is_held,
             at_rest_polynomials_hold_from_both_sides, two_tangents_are_two_contacts_of_the_model, names_of_responses)
