@@ -8,11 +8,15 @@
 #include "timeint/transient_settings.h"
 #include <pthread.h>
 
+/* Are the bands of solutions with free sliders found (compare/band.h)? */
+typedef enum compare_band { COMPARE_BAND_AUTO, COMPARE_BAND_OFF } compare_band;
+
 typedef struct compare_settings {
   number_list omega;     /* [rad/time]; n = 0: use `points` */
   int points;            /* spread over the sweep, dense at peaks */
   number_list harmonics; /* truncation orders to report */
   number_list samples;   /* sampling rates to report */
+  compare_band band;
 } compare_settings;
 
 typedef struct gate_limits gate_limits; /* compare/gate_limits.h: nobody else looks inside */

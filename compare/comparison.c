@@ -168,6 +168,7 @@ static hc_status make_states(comparison_work *w)
   w->expected = workspace_array(memory, responses, sizeof *w->expected);
   w->motions = workspace_array(memory, responses, sizeof *w->motions);
   w->budgets = workspace_array(memory, responses, sizeof *w->budgets);
+  w->bands = workspace_array(memory, responses, sizeof *w->bands);
   const size_t longest = (size_t)(2 * HBM_MAX_HARMONICS + 1) * (size_t)w->setup->model->n;
   w->beside = workspace_doubles(memory, longest);
   w->moved = workspace_doubles(memory, w->setup->reduction > 0 ? 2 * longest : 0);
@@ -203,6 +204,7 @@ hc_status comparison_run(const compare_setup *setup, const hc_monitor *monitor, 
     budgeter_count(w.budgeter, &cost->hbm_solves, &cost->periods, &cost->closed_form);
   }
   workspace_free(&w.memory);
+  band_search_free(w.band_search);
   budgeter_free(w.budgeter);
   timeint_free(w.exact);
   timeint_free(w.ti);

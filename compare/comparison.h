@@ -9,6 +9,7 @@
  * amplitude or waveform above three times the sum of both estimates is `unexpected`: one of them is mistaken. */
 #pragma once
 
+#include "compare/band.h"
 #include "compare/budget.h"
 #include "compare/compare_settings.h"
 #include "compare/discrepancy.h"
@@ -67,7 +68,9 @@ const char *contact_comparison_text(const contact_comparison *c, char text[CONTA
   X(VERDICT_UNBOUNDED, "unbounded", "the motion grows without bound")                                                  \
   X(VERDICT_CREEPS, "creeps", "the body slides on by `drift` each period")                                             \
   X(VERDICT_UNDECIDED, "undecided",                                                                                    \
-    "not known whether HBM is wrong: no orbit was found next to its solution; try more harmonics")
+    "not known whether HBM is wrong: no orbit was found next to its solution; try more harmonics")                     \
+  X(VERDICT_FAMILY, "family",                                                                                          \
+    "within the gate, but one of many steady states: where sliders rest moves the amplitude by more than the gate")
 #define VERDICT_ENUM(code, name, meaning) code,
 typedef enum verdict { VERDICT_LIST(VERDICT_ENUM) VERDICT_COUNT } verdict;
 #undef VERDICT_ENUM
@@ -99,6 +102,7 @@ typedef struct comparison_row {
   /* What each side expects of itself, relative to its own amplitude; `mean` is not predicted. NaN: not known. */
   discrepancy hbm_predicted, transient_predicted;
   bool unexpected; /* comparison_unexpected() */
+  band band;       /* of the steady states that differ by where sliders rest that never slip */
 } comparison_row;
 
 enum { COMPARISON_ADVICE_TEXT = 192 };
@@ -143,7 +147,10 @@ const char *comparison_worst_text(const comparison *c, const comparison_row *wor
 /* "match", "period_2", ...: the row's verdict in text[24], which is returned. */
 const char *comparison_verdict_text(const comparison_row *row, char text[24]);
 
-/* Does the row compare two descriptions of one orbit: `match` or `differs`? */
+/* Is every error within the gate: `match` or `family`? */
+bool comparison_agrees(const comparison_row *row);
+
+/* Does the row compare two descriptions of one orbit: these, or `differs`? */
 bool comparison_one_orbit(const comparison_row *row);
 
 /* Is it known where the transient went, and no HBM solution is there? */

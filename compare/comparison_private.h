@@ -12,6 +12,7 @@ struct comparison_work {
   timeint *ti;
   timeint *exact; /* the referee: exact law, shooting */
   budgeter *budgeter;
+  band_search *band_search; /* NULL until a solution has a free slider */
   const hc_monitor *monitor;
   comparison *out;
   workspace memory; /* of the arrays below */
@@ -25,6 +26,7 @@ struct comparison_work {
   motion_error *expected;
   periodic_motion *motions;
   error_budget *budgets;
+  band *bands;    /* [n_responses] */
   double *beside; /* [n_coef] a solution that the transient of the row runs on, and the curve has not come to */
   bool looked_beside, has_beside;
   double *moved; /* [2][n_coef] of from_reduction; as long as any solution may be */

@@ -1,6 +1,7 @@
 /* response.h - the response curve, the frequencies to compare at, a row a solution, and a summary. */
 #pragma once
 
+#include "compare/band.h"
 #include "compare/compare_settings.h"
 #include "hbm/hbm.h"
 
@@ -35,6 +36,7 @@ typedef struct response_row {
   hbm_measures measures;
   bool stability_known;
   hbm_stability stability; /* valid when known */
+  band band;               /* where it was asked for */
   const double *series;    /* [2 H + 1] [length] of the response: the caller's, where it fills them; NULL: not known */
 } response_row;
 

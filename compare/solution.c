@@ -403,6 +403,23 @@ static hc_status measure_response(comparison_work *w, const hbm_curve *at, int k
   return HC_OK;
 }
 
+/* w->bands, and the verdict of a solution that agrees while its neighbours in the family do not. */
+static hc_status find_bands(comparison_work *w, const double *X, comparison_row *row)
+{
+  const int n = w->setup->model->n_responses;
+  const bool asked = w->setup->compare.band == COMPARE_BAND_AUTO && row->hbm_status == HC_OK;
+  hc_status st = HC_OK;
+  for (int r = 0; r < n; ++r) w->bands[r] = (band){asked ? BAND_NONE : BAND_NOT_ASKED, NAN, NAN, false};
+  if (asked && row->hbm.contact.free_sliders > 0) {
+    if (!w->band_search) st = band_search_new(w->setup->model, w->hbm, w->exact, &w->band_search);
+    if (st == HC_OK) st = band_find(w->band_search, row->omega, X, w->monitor, w->bands);
+  }
+  row->band = w->bands[0];
+  if (row->verdict == VERDICT_MATCH && band_width(&row->band) > gate_limits_at(w->setup->limits, row->omega).amplitude)
+    row->verdict = VERDICT_FAMILY;
+  return st;
+}
+
 hc_status solution_compare(comparison_work *w, const hbm_curve *at, int k, comparison_row *row)
 {
   const double *X = at->X + (size_t)k * at->n_coef;
@@ -432,18 +449,21 @@ hc_status solution_compare(comparison_work *w, const hbm_curve *at, int k, compa
   if (known == HC_OK) known = account_beside(w, 0, row);
   if (known != HC_OK) return known;
   row->unexpected = comparison_unexpected(row);
-  return account(w, at, k, row);
+  known = find_bands(w, X, row);
+  return known == HC_OK ? account(w, at, k, row) : known;
 }
 
 hc_status solution_turn(comparison_work *w, const hbm_curve *at, int k, int r, const comparison_row *first,
                         comparison_row *row)
 {
   *row = *first;
+  row->band = w->bands[r];
   hc_status st = measure_response(w, at, k, r, row);
   row->budget = row->still ? budget_nothing() : w->budgets[r];
   if (comparison_one_orbit(first)) {
     const bool within = row->still || within_limits(w->setup, &row->errors, &row->transient);
     row->verdict = within ? VERDICT_MATCH : stability_of(first) < 0 ? VERDICT_UNSTABLE : VERDICT_DIFFERS;
+    if (within && first->verdict == VERDICT_FAMILY) row->verdict = VERDICT_FAMILY;
   }
   row->unexpected = comparison_unexpected(row);
   return st == HC_OK ? account_beside(w, r, row) : st;
@@ -491,9 +511,14 @@ const char *comparison_verdict_text(const comparison_row *row, char text[24])
   return text;
 }
 
+bool comparison_agrees(const comparison_row *row)
+{
+  return row->verdict == VERDICT_MATCH || row->verdict == VERDICT_FAMILY;
+}
+
 bool comparison_one_orbit(const comparison_row *row)
 {
-  return row->verdict == VERDICT_MATCH || row->verdict == VERDICT_DIFFERS;
+  return comparison_agrees(row) || row->verdict == VERDICT_DIFFERS;
 }
 
 bool comparison_mean_free(const comparison_row *row)
@@ -600,7 +625,8 @@ int comparison_exit_code(const comparison *c)
     if (comparison_unaccounted(&c->rows[i])) return 1;
   if (c->curve.end != HC_OK) return 3; /* what lies beyond was not compared, and the curve might have come back */
   if (c->count[VERDICT_SOLVER_FAILED] > 0 || c->count[VERDICT_NOT_SETTLED] > 0 || c->count[VERDICT_UNBOUNDED] > 0 ||
-      c->count[VERDICT_CREEPS] > 0 || c->count[VERDICT_UNDECIDED] > 0 || c->count[VERDICT_MATCH] == 0)
+      c->count[VERDICT_CREEPS] > 0 || c->count[VERDICT_UNDECIDED] > 0 ||
+      c->count[VERDICT_MATCH] + c->count[VERDICT_FAMILY] == 0)
     return 3;
   return 0;
 }

@@ -3,6 +3,7 @@
  *     x(t) ~ X[0] + sum_{h=1..H} X[2h-1] cos(h omega t) + X[2h] sin(h omega t)         (numerics/series.h)
  *
  * hbm_solver.h       a solver of a model; one solution at a fixed omega, and its measures
+ * rests.h            solutions by where sliders rest that never slip
  * continuation.h     the response curve over a range of omega
  * response_curve.h   its points
  * segment.h          every solution at an omega between the points, and the peak
@@ -21,4 +22,5 @@
 #include "hbm/curve/segment.h"
 #include "hbm/curve/special_points.h"
 #include "hbm/solver/hbm_solver.h"
+#include "hbm/solver/rests.h"
 #include "hbm/solver/stability.h"

@@ -11,6 +11,7 @@
 typedef struct moving_contact {
   contact law;
   double cu[SERIES_MAX_DIM], cv[SERIES_MAX_DIM];
+  double rest; /* [length] where the slider of a contact that is never lost begins */
 } moving_contact;
 
 /* The contacts of an oscillator, *out to be freed. HC_NO_MEMORY: *out is NULL. */

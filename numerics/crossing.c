@@ -156,13 +156,13 @@ bool crossing_first(const series_vector *m, const guard *g, const series_node *a
 }
 
 typedef struct range {
-  double max, min;
+  double max, min, th_max, th_min;
 } range;
 
-static void take_in(range *r, double f)
+static void take_in(range *r, double f, double th)
 {
-  if (f > r->max) r->max = f;
-  if (f < r->min) r->min = f;
+  if (f > r->max) r->max = f, r->th_max = th;
+  if (f < r->min) r->min = f, r->th_min = th;
 }
 
 static double weighted(const series_vector *m, const double *a, const series_node *at)
@@ -172,24 +172,30 @@ static double weighted(const series_vector *m, const double *a, const series_nod
   return f;
 }
 
-void guard_extrema(const series_vector *m, const double *a, double from, double to, double *max, double *min)
+static range find_range(const series_vector *m, const double *a, double from, double to)
 {
   const int n = (int)ceil(SERIES_GRID * (to - from) / TWO_PI);
   guard rising = guard_make(m, 1, a, 0), falling = guard_negative(&rising);
   series_node here = series_vector_at(m, from), root;
-  range r = {weighted(m, a, &here), weighted(m, a, &here)};
+  range r = {weighted(m, a, &here), weighted(m, a, &here), from, from};
   for (int i = 1; i <= n; ++i) {
     const series_node next = series_vector_at(m, i < n ? from + (to - from) * i / n : to);
     /* between grid angles f' changes sign any number of times; every change is an extremum */
     for (bool up = guard_value(&rising, &here) > 0; crossing_first(m, up ? &rising : &falling, &here, &next, &root);
          up = !up) {
-      take_in(&r, weighted(m, a, &root));
+      take_in(&r, weighted(m, a, &root), root.th);
       if (!(root.th > here.th)) break; /* f' is 0 to rounding */
       here = root;
     }
     here = next;
-    take_in(&r, weighted(m, a, &here));
+    take_in(&r, weighted(m, a, &here), here.th);
   }
+  return r;
+}
+
+void guard_extrema(const series_vector *m, const double *a, double from, double to, double *max, double *min)
+{
+  const range r = find_range(m, a, from, to);
   *max = r.max;
   *min = r.min;
 }
@@ -199,4 +205,13 @@ void series_extrema(int n_harm, const double *X, double *max, double *min)
   const double one = 1;
   const series_vector m = {n_harm, 1, {X}};
   guard_extrema(&m, &one, 0, TWO_PI, max, min);
+}
+
+double series_amplitude_rate(int n_harm, const double *X, const double *dX)
+{
+  const double one = 1;
+  const series_vector m = {n_harm, 1, {X}};
+  const range r = find_range(&m, &one, 0, TWO_PI);
+  return 0.5 * (series_at(n_harm, dX, cos(r.th_max), sin(r.th_max)).x -
+                series_at(n_harm, dX, cos(r.th_min), sin(r.th_min)).x);
 }

@@ -28,6 +28,9 @@ series_jet series_at(int n_harm, const double *X, double c, double s);
 /* Largest and smallest value over a period, to rounding: every extremum is found (crossing.c). */
 void series_extrema(int n_harm, const double *X, double *max, double *min);
 
+/* Rate of the amplitude (max - min)/2 of X as X moves along dX; where two extrema are equally large, one of the two. */
+double series_amplitude_rate(int n_harm, const double *X, const double *dX);
+
 /* Root mean square over a period, mean included. */
 double series_rms(int n_harm, const double *X);
 

@@ -127,6 +127,7 @@ static void judge_solution(judge *j, const comparison_row *r)
   gate_check lost = check_of(r, "solution", NULL);
   switch (r->verdict) {
   case VERDICT_MATCH:
+  case VERDICT_FAMILY:
   case VERDICT_DIFFERS: check_errors(j, r, &r->errors, &r->transient, "transient"); return;
   case VERDICT_UNSTABLE:
   case VERDICT_OTHER_BRANCH:

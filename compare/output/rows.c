@@ -1,6 +1,6 @@
 /* rows.c - see rows.h. The one place where a result has columns: each is a line of a list,
  *   X(where, kind, name, unit, meaning, is it there, value)   with r the row
- * where: ALL tables; IN_CYCLES, RESPONSES, IN_MEMORY: those asked for (rows.h). A value is worked out when a table that
+ * where: ALL tables; IN_CYCLES, RESPONSES, IN_MEMORY, WITH_BANDS: those asked for (rows.h). A value is worked out when a table that
  * has the column takes the row. */
 #include "compare/output/rows.h"
 
@@ -72,6 +72,13 @@ static const char *stability_text(int s) { return s > 0 ? "stable" : s < 0 ? "un
   X(ALL, TEXT, mean_free, "", "yes where a free slider leaves the mean, and the amplitude perhaps, to history", there, \
     yes_no(of))
 #define DRIFT(X, status, of) X(ALL, REAL, drift, "length", "of what creeps, per period", (status) == HC_CREEPS, of)
+#define BAND(X, where, of) \
+  X(where, REAL, band_low, "length", "least amplitude of the steady states that differ by where sliders rest", true, \
+    (of).low) \
+  X(where, REAL, band_high, "length", "and the largest", true, (of).high) \
+  X(where, REAL, band_width, "1", "(high - low)/(high + low)", true, band_width(&(of))) \
+  X(where, TEXT, band_kind, "", "exact: all were seen; at least: more may be wider; none: no slider is free", \
+    (of).kind != BAND_NOT_ASKED, band_kind_name((of).kind))
 #define PEAK_FREQUENCY(X) \
   X(IN_CYCLES, REAL, peak_frequency, "1/time", "of the largest amplitude", true, r->peak_omega / TWO_PI)
 
@@ -91,6 +98,7 @@ static const char *stability_text(int s) { return s > 0 ? "stable" : s < 0 ? "un
   X(ALL, INTEGER, iterations, "", "of Newton", true, r->point.iterations) \
   X(ALL, REAL, residual, "1", "relative to the forces it is made of", true, r->point.residual) \
   MEAN_FREE(X, true, r->measures.contact.free_sliders > 0) \
+  BAND(X, WITH_BANDS, r->band) \
   X(IN_MEMORY, INTEGER, harmonics, "", "H kept at this point", true, r->point.harmonics) \
   X(IN_MEMORY, SERIES, coefficients, "length", "X0, a1, b1, a2, b2, ... of the response", r->series, \
     ((row_series){2 * r->point.harmonics + 1, r->series}))
@@ -181,6 +189,10 @@ static const char *stability_text(int s) { return s > 0 ? "stable" : s < 0 ? "un
     yes_no(r->unexpected)) \
   MEAN_FREE(X, has_hbm(r), comparison_mean_free(r)) \
   DRIFT(X, r->transient_status, r->transient.drift) \
+  BAND(X, ALL, r->band) \
+  X(ALL, REAL, from_history, "1", \
+    "how far the amplitude is off at most where sliders that never slip rest elsewhere", true, \
+    band_from_history(&r->band, r->hbm.amplitude)) \
   X(IN_MEMORY, TEXT, stable, "", "of the HBM solution: yes, no or unknown", has_hbm(r), \
     stable_text(true, &r->stability)) \
   X(IN_MEMORY, REAL, multiplier, "1", "size of the HBM solution's largest Floquet multiplier", has_hbm(r), \
@@ -369,8 +381,8 @@ static const char *const of_compare[] = {
     "omega", "hbm_predicted_harmonic_1", "hbm_predicted_waveform", "transient_predicted_harmonic_1",
     "transient_predicted_waveform", "budget_sum", "budget_observed", "orbit_multiplier", "orbit_amplitude",
     "hbm_harmonic_1", "transient_harmonic_1", "periods", "from_reduction", "from_settling", "from_integration",
-    "unexpected", "orbit_error", "from_aliasing", "from_truncation", "from_regularisation", "transient_predicted",
-    "hbm_predicted", "mean_error", "harmonic_1_error", "largest_part", "waveform_error", NULL};
+    "unexpected", "band_low", "band_high", "from_history", "orbit_error", "from_aliasing", "from_truncation", "from_regularisation", "transient_predicted",
+    "hbm_predicted", "mean_error", "band_kind", "harmonic_1_error", "largest_part", "waveform_error", NULL};
 
 static const char *const of_accuracy[] = {
     "peak_omega", "amplitude_error_median", "peak_omega_error", "peak_amplitude_error", "iterations", "rejected",
@@ -394,7 +406,13 @@ static const char *const of_others[] = {"omega", NULL};
 
 /* ---- every kind ---- */
 
-enum { ALL, IN_CYCLES = ROWS_IN_CYCLES, RESPONSES = ROWS_RESPONSES, IN_MEMORY = ROWS_IN_MEMORY };
+enum {
+  ALL,
+  IN_CYCLES = ROWS_IN_CYCLES,
+  RESPONSES = ROWS_RESPONSES,
+  IN_MEMORY = ROWS_IN_MEMORY,
+  WITH_BANDS = ROWS_BANDS
+};
 
 typedef struct row_column {
   table_column column;

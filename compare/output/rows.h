@@ -26,8 +26,8 @@ typedef enum {
 } rows_kind;
 
 /* Columns of some tables: frequencies in cycles beside the omegas; the name of response or contact; what is for
- * programs alone, series of numbers among it. */
-enum { ROWS_IN_CYCLES = 1, ROWS_RESPONSES = 2, ROWS_IN_MEMORY = 4 };
+ * programs alone, series of numbers among it; of HBM's solutions their bands. */
+enum { ROWS_IN_CYCLES = 1, ROWS_RESPONSES = 2, ROWS_IN_MEMORY = 4, ROWS_BANDS = 8 };
 
 enum { ROWS_MOST = 64, ROWS_TEXT = 128 }; /* columns of a kind, asserted; bytes of a text, the end included */
 
@@ -47,7 +47,7 @@ typedef struct row_cell {
   } as;
 } row_cell;
 
-/* The columns of a kind; how many. extra: a sum of ROWS_IN_CYCLES, ROWS_RESPONSES and ROWS_IN_MEMORY. */
+/* The columns of a kind; how many. extra: a sum of those above. */
 int rows_columns(rows_kind kind, unsigned extra, table_column columns[ROWS_MOST]);
 
 /* "frf", "steady_contact": what describe and docs/columns.txt call that kind. */

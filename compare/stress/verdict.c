@@ -29,7 +29,8 @@ static bool wrong(const comparison_row *r, const discrepancy *g, double *ratio)
   if (r->still) return false; /* not compared */
   bool orbit = r->orbit_status == HC_OK && !r->transient.left_orbit && budget_same_orbit(&r->transient, &r->orbit);
   switch (r->verdict) {
-  case VERDICT_MATCH: {
+  case VERDICT_MATCH:
+  case VERDICT_FAMILY: {
     if (!(*ratio <= 1)) return true;
     double law = known(r->budget.waveform.regularisation) + known(r->budget.waveform.integration) +
                  known(r->budget.waveform.settling);
@@ -53,7 +54,7 @@ static stress_check row_check(solved_scene *s, const comparison_row *r)
   double ratio;
   if (r->hbm_status == HC_BUG || r->transient_status == HC_BUG) return stress_find(STRESS_INTERNAL, NAN, NAN);
   if (wrong(r, &g, &ratio)) return stress_find(STRESS_WRONG_VERDICT, ratio, 1);
-  if (r->verdict == VERDICT_MATCH) return stress_agree(r->still ? 0 : ratio, 1);
+  if (comparison_agrees(r)) return stress_agree(r->still ? 0 : ratio, 1);
   const hc_status failed = r->hbm_status != HC_OK ? r->hbm_status : r->transient_status;
   return failed == HC_OK ? stress_explain(STRESS_SAID_SO, ratio, 1) : stress_refuse(s, failed);
 }
@@ -67,7 +68,7 @@ stress_check stress_hold_prediction(const comparison_row *r)
   const double said[] = {hbm->amplitude + transient->amplitude, hbm->waveform + transient->waveform};
   const double found[] = {r->errors.amplitude, r->errors.waveform},
                apart[] = {known(r->budget.amplitude.regularisation), known(r->budget.waveform.regularisation)};
-  const bool one_orbit = r->verdict == VERDICT_MATCH || r->verdict == VERDICT_DIFFERS;
+  const bool one_orbit = comparison_one_orbit(r);
   stress_check worst = stress_skip(STRESS_NO_ORBIT);
   if (!one_orbit || r->transient.period_multiple != 1) return worst;
   if (r->hbm.contact.regime <= CONTACT_STUCK) return stress_skip(STRESS_NOT_APPLICABLE);

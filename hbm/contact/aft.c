@@ -271,9 +271,11 @@ static hc_status aft_evaluate(void *self, const double *X, double *F, double *ja
 
 static void aft_let_go(void *self) { aft_free(self); }
 static void aft_ask_sliders(const void *self, double *w) { aft_sliders(self, w); }
+static void aft_start(void *self, const double *w) { ((aft *)self)->slider.start = *w; }
 
 const contact_evaluator aft_evaluator = {.make = aft_make,
                                          .free = aft_let_go,
                                          .evaluate = aft_evaluate,
                                          .jacobian = aft_jacobian,
-                                         .sliders = aft_ask_sliders};
+                                         .sliders = aft_ask_sliders,
+                                         .start = aft_start};

@@ -52,8 +52,10 @@ typedef struct contact_evaluator {
   hc_status (*evaluate)(void *self, const double *X, double *F, double *jac, contact_report *report);
   void (*jacobian)(void *self, double *jac);
 
-  /* [length] The sliders at th = 0 in the last evaluation, one for each contact of the model. */
+  /* [length] The sliders at th = 0 in the last evaluation, one for each contact of the model; and where those of
+   * evaluations to come begin that are never lifted off, at first at 0. `start` is NULL for laws without sliders. */
   void (*sliders)(const void *self, double *w);
+  void (*start)(void *self, const double *w);
 
   /* Where forces are exact, the last evaluation's: the intervals in contact, n of them; and the slip of a contact
    * with two tangents, for whoever follows a perturbation along it. NULL where there is none. */

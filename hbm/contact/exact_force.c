@@ -249,7 +249,8 @@ static hc_status evaluate(void *self, const double *X, double *F, double *jac, c
 
 static void let_go(void *self) { exact_force_free(self); }
 static void sliders(const void *self, double *w) { exact_force_sliders(self, w); }
+static void start(void *self, const double *w) { ((exact_force *)self)->contacts->rest = *w; }
 static const contact_interval *intervals(const void *self, int *n) { return exact_force_intervals(self, 0, n); }
 
 const contact_evaluator exact_force_evaluator = {
-    .make = make, .free = let_go, .evaluate = evaluate, .sliders = sliders, .intervals = intervals};
+    .make = make, .free = let_go, .evaluate = evaluate, .sliders = sliders, .start = start, .intervals = intervals};

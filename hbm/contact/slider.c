@@ -189,7 +189,7 @@ slider_report slider_follow(const contact *law, const slider_rule *rule, int n, 
   k.apart = 0 - contact_preload(law) * k.m.of_n;
   if (law->load > 0) k.kn = 1, k.gap = law->load, k.m.s = k.m.of_n = 0; /* N = load, whatever the motion */
   slider_report found;
-  slider t = {.state = CONTACT_STICK};
+  slider t = {.state = CONTACT_STICK, .w = rule->start};
   if (!(contact_normal(law, k.m.s * m->across[n - 1]) > 0)) t.state = CONTACT_SEPARATED;
   int n_first = 0;
   for (int i = 0; i < n;) i = follow_interval(&k, n, f, i, &t, &settling[n_first++]);

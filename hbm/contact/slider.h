@@ -42,11 +42,12 @@ typedef struct slider_rule {
   void (*touch)(double *w, slider_origin *origin);
   const struct planar_rule *in_plane; /* a step with two tangents (planar_slider.h); NULL: by `restart` */
   bool keeps;                         /* w stays as it is over a separation; else w = u while it lasts */
-  bool once;                          /* the force is that of one period from w = 0, whether it closes or not */
+  bool once;                          /* the force is that of one period from `start`, whether it closes or not */
+  double start;                       /* [length] where one of one tangent begins: 0 at first (contact_evaluator.h) */
 } slider_rule;
 
 /* f[n] [force] at each sample of the periodic motion m; intervals[n]: room, the first of them filled; again[n],
- * settling[n]: room, overwritten. Exactly the second of two periods that begin with w = 0, but the second is followed
+ * settling[n]: room, overwritten. Exactly the second of two periods that begin at the start, but the second is followed
  * only until it is where the first was; by a rule that follows it once, the first. Cannot fail, allocates nothing. */
 slider_report slider_follow(const contact *law, const slider_rule *rule, int n, const slider_motion *m, double *f,
                             double *again, sampled_interval *intervals, sampled_interval *settling);

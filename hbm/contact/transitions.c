@@ -216,15 +216,16 @@ static hc_status scan_with_separations(scan *w, series_node a)
   return st;
 }
 
-/* Contact is never lost: a first period from w = 0 settles the slider (a period maps w like a clamp, README.md), the
+/* Contact is never lost: a first period from w = rest settles the slider (a period maps w like a clamp, README.md), the
  * second is recorded. */
 static hc_status scan_without_separation(scan *w)
 {
   const series_node *start = &w->grid->node[0], *end = &w->grid->node[SERIES_GRID];
   double low = -guard_value(&w->stick[0], start), high = guard_value(&w->stick[1], start);
   w->now.state = w->friction ? CONTACT_STICK : frictionless(&w->c->law);
-  w->now.held = w->friction ? fmin(fmax(0, low), high) : 0;
-  if (w->now.held != 0) come_to_rest(w, low > 0 ? 1 : -1, start);
+  const double asked = w->c->law.kt * w->c->rest;
+  w->now.held = w->friction ? fmin(fmax(asked, low), high) : 0;
+  if (w->now.held != asked) come_to_rest(w, low > asked ? 1 : -1, start);
   hc_status st = scan_contact(w, start, end);
   contact_interval settled = w->now;
   w->recording = true;

@@ -33,7 +33,7 @@ typedef struct contact_interval {
 #define TRANSITIONS_LARGEST 1e140
 
 /* The intervals of one period, ascending, into interval[cap]; *n of them. Where contact is never lost the slider
- * starts at w = 0, which is as good as any other start. HC_CHATTER: more than cap intervals, or 64 (H + 1) changes
+ * starts at c->rest. HC_CHATTER: more than cap intervals, or 64 (H + 1) changes
  * of state. HC_NOT_CLOSED: the slider is not where it was a period before. HC_NOT_FINITE: a guard overflows. */
 hc_status transitions_find(const series_grid *grid, const moving_contact *c, int cap, contact_interval *interval,
                            int *n);

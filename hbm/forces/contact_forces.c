@@ -285,6 +285,12 @@ void contact_forces_sliders(const contact_forces *f, double *w)
   for (int j = 0; j < f->n_members; ++j) f->members[j].by.sliders(f->members[j].evaluator, w + f->members[j].first);
 }
 
+void contact_forces_start(contact_forces *f, const double *w)
+{
+  for (member *m = f->members; m < f->members + f->n_members; ++m)
+    if (m->by.start) m->by.start(m->evaluator, w + m->first);
+}
+
 static const member *member_of(const contact_forces *f, int j) { return &f->members[f->member_of[j]]; }
 
 const contact_interval *contact_forces_intervals(const contact_forces *f, int j, int *n)

@@ -35,6 +35,10 @@ const double *contact_forces_jacobian(contact_forces *f);
 /* w[n_contacts] [length]: the sliders at th = 0 on the closed orbit of the last evaluation. */
 void contact_forces_sliders(const contact_forces *f, double *w);
 
+/* Where those of evaluations to come begin that are never lifted off: at 0 at first. A slider that cannot stay there is
+ * put into the limit at th = 0, and goes where the motion drags it. */
+void contact_forces_start(contact_forces *f, const double *w);
+
 /* Regime of contact j in the last evaluation. */
 contact_regime contact_forces_regime(const contact_forces *f, int j);
 

@@ -48,7 +48,9 @@ typedef struct planar_aft {
   double last[2];  /* [length] see PLANAR_GUESSED */
   double first[2]; /* [length] slider at sample 0 */
   planar_rest rest;
-  double *table; /* of series_grid_table_fill */
+  double asked[2]; /* [length] where the slider was asked to begin: u is counted from there */
+  double *X;       /* [n_dof (2H+1)] so counted */
+  double *table;   /* of series_grid_table_fill */
   planar_point grid[PLANAR_GRID];
   /* For the Jacobian: n_col = n_dof (2H+1) derivatives by X and two by the slider before sample 0. */
   double *symbol;   /* [4H+1] */
@@ -101,6 +103,7 @@ static hc_status planar_aft_make(const contact_coordinates *c, const evaluator_s
     a->by[d] = workspace_doubles(w, n_col);
   }
   a->held = workspace_doubles(w, length);
+  a->X = workspace_doubles(w, (size_t)a->n_dof * length);
   a->table = workspace_doubles(w, (size_t)series_grid_table_length(a->n_harm));
   a->whole = workspace_doubles(w, 2 * length * n_col);
   a->harmonic = workspace_doubles(w, PANEL * length);
@@ -256,7 +259,7 @@ static hc_status planar_aft_find_rest(planar_aft *a, const double *X)
   const int length = series_length(a->n_harm);
   const planar_motion m = planar_motion_make(&a->law, a->n_harm, X, X + length, a->n_dof == 3 ? X + 2 * length : NULL);
   planar_motion_grid(&m, a->table, a->grid);
-  return planar_rest_find(&m, a->grid, &a->rest);
+  return planar_rest_find(&m, a->grid, a->asked[0] != 0 || a->asked[1] != 0, &a->rest);
 }
 
 /* The orbit of a slider that stays at a->rest.w. */
@@ -299,7 +302,9 @@ static hc_status planar_aft_evaluate(void *self, const double *X, double *F, dou
   double size = 0; /* bounds |u| and |v| */
   for (int i = 0; i < a->n_dof * length; ++i) size += fabs(X[i]);
   if (!isfinite(size)) return HC_NOT_FINITE;
-  for (int d = 0; d < a->n_dof; ++d) period_samples_of(&a->of, X + d * length, a->motion[d]);
+  memcpy(a->X, X, (size_t)(a->n_dof * length) * sizeof *X);
+  for (int d = 0; d < 2; ++d) a->X[d * length] -= a->asked[d];
+  for (int d = 0; d < a->n_dof; ++d) period_samples_of(&a->of, a->X + d * length, a->motion[d]);
   if (a->n_dof == 2) memset(a->motion[2], 0, (size_t)a->n_time * sizeof(double));
   if (a->n_dof == 3) { /* normal forces of both halves, less N0 */
     for (int i = 0; i < a->n_time; ++i) a->of.sample[i] = 2 * contact_normal_change(&a->law, a->motion[2][i]);
@@ -316,7 +321,7 @@ static hc_status planar_aft_evaluate(void *self, const double *X, double *F, dou
   a->rest = (planar_rest){.exists = false};
   if (st != HC_OK || a->orbit != PLANAR_CLOSED) { /* not found from the last motion's orbit */
     st = HC_OK;
-    if (!apart && rests_where_nearest(a)) st = planar_aft_find_rest(a, X);
+    if (!apart && rests_where_nearest(a)) st = planar_aft_find_rest(a, a->X);
     if (st != HC_OK) return st;
     memcpy(w, a->rest.w, sizeof w);
     memcpy(a->start, w, sizeof w);
@@ -335,7 +340,14 @@ static hc_status planar_aft_evaluate(void *self, const double *X, double *F, dou
 static void planar_aft_sliders(const void *self, double *w)
 {
   const planar_aft *a = self;
-  memcpy(w, a->first, sizeof a->first);
+  for (int d = 0; d < 2; ++d) w[d] = a->first[d] + a->asked[d];
+}
+
+static void planar_aft_start(void *self, const double *w)
+{
+  planar_aft *a = self;
+  memcpy(a->asked, w, sizeof a->asked);
+  a->orbit = PLANAR_ONE_PASS; /* the last one is counted from elsewhere */
 }
 
 static int columns(const planar_aft *a) { return a->n_dof * series_length(a->n_harm); }
@@ -532,4 +544,5 @@ const contact_evaluator planar_aft_evaluator = {.make = planar_aft_make,
                                                 .free = planar_aft_let_go,
                                                 .evaluate = planar_aft_evaluate,
                                                 .jacobian = planar_aft_jacobian,
-                                                .sliders = planar_aft_sliders};
+                                                .sliders = planar_aft_sliders,
+                                                .start = planar_aft_start};

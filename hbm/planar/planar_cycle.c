@@ -360,7 +360,7 @@ static hc_status close_slip(planar_cycle *c)
 /* Finds c->rest; if it exists, the cycle is one stick interval. */
 static hc_status find_rest(planar_cycle *c)
 {
-  const hc_status st = planar_rest_find(c->m, c->grid, &c->rest);
+  const hc_status st = planar_rest_find(c->m, c->grid, c->asked, &c->rest);
   if (st != HC_OK || !c->rest.exists) return st;
   begin_pass(c);
   c->n = 1;

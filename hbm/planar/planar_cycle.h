@@ -36,6 +36,7 @@ typedef struct planar_cycle {
   const planar_motion *m;
   const planar_point *grid; /* of planar_motion_grid */
   bool always;              /* in contact all period: then n_contacts is 1 */
+  bool asked;               /* rest at w = 0 was asked for (planar_rest.h) */
   bool may_shift;           /* the last step of Newton may be applied to first order (planar_cycle.c) */
   int n_contacts;
   const planar_contact *contact; /* [n_contacts] ascending */

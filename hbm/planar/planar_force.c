@@ -24,7 +24,8 @@ struct planar_force {
   contact law;                       /* of both halves together */
   exact_force *normal;               /* gives N - N0 and the intervals of contact; NULL if N is constant */
   double *F_normal, *jac_normal;     /* [n_coef], [n_coef]^2 */
-  double *X;                         /* [n_size] X of the last evaluation, to which `motion` points */
+  double start[2];                   /* [length] where the slider was asked to begin: u is counted from there */
+  double *X;                         /* [n_size] so counted, of the last evaluation, to which `motion` points */
   planar_motion motion;
   double *table; /* of series_grid_table_fill */
   planar_point grid[PLANAR_GRID];
@@ -488,6 +489,7 @@ static hc_status find_force(planar_force *f, const double *X, bool may_shift, bo
   for (int i = 0; i < f->n_size; ++i) size += fabs(X[i]);
   if (!(size <= TRANSITIONS_LARGEST)) return HC_NOT_FINITE;
   memcpy(f->X, X, (size_t)f->n_size * sizeof *X);
+  for (int d = 0; d < 2; ++d) f->X[d * f->n_coef] -= f->start[d];
   f->cycle.may_shift = may_shift;
   hc_status st = find_orbit(f, f->X);
   if (st != HC_OK) return st;
@@ -497,7 +499,7 @@ static hc_status find_force(planar_force *f, const double *X, bool may_shift, bo
   force_jacobian_add(f->n_harm, f->symbol, f->n_coef, f->matrix);
   for (size_t d = 0; d < 2; ++d) {
     for (size_t q = 0; q < L; ++q)
-      for (size_t i = 0; i < L; ++i) f->F[d * L + i] += f->matrix[i + L * q] * X[d * L + q];
+      for (size_t i = 0; i < L; ++i) f->F[d * L + i] += f->matrix[i + L * q] * f->X[d * L + q];
     for (size_t i = 0; i < L; ++i) F[d * L + i] = f->law.kt * f->F[d * L + i];
   }
   for (size_t i = 0; f->n_dof == 3 && i < L; ++i) F[2 * L + i] = f->F_normal[i];
@@ -517,7 +519,11 @@ hc_status planar_force_eval(planar_force *f, const double *X, double *F, double 
   return st;
 }
 
-void planar_force_slider(const planar_force *f, double w[2]) { planar_cycle_slider(&f->cycle, w); }
+void planar_force_slider(const planar_force *f, double w[2])
+{
+  planar_cycle_slider(&f->cycle, w);
+  for (int d = 0; d < 2; ++d) w[d] += f->start[d];
+}
 
 const planar_cycle *planar_force_cycle(const planar_force *f) { return &f->cycle; }
 
@@ -554,6 +560,12 @@ static const contact_interval *intervals(const void *self, int *n)
 
 static void let_go(void *self) { planar_force_free(self); }
 static void sliders(const void *self, double *w) { planar_force_slider(self, w); }
+static void start(void *self, const double *w)
+{
+  planar_force *f = self;
+  memcpy(f->start, w, sizeof f->start);
+  f->cycle.asked = w[0] != 0 || w[1] != 0;
+}
 static const planar_cycle *in_plane(const void *self) { return planar_force_cycle(self); }
 
 const contact_evaluator planar_force_evaluator = {.make = make,
@@ -561,5 +573,6 @@ const contact_evaluator planar_force_evaluator = {.make = make,
                                                   .evaluate = evaluate,
                                                   .jacobian = jacobian,
                                                   .sliders = sliders,
+                                                  .start = start,
                                                   .intervals = intervals,
                                                   .in_plane = in_plane};

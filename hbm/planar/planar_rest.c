@@ -258,12 +258,22 @@ static void centre_between_two(planar_rest *r)
   r->room = -0.5 * (h[0] + h[1]);
 }
 
-hc_status planar_rest_find(const planar_motion *m, const planar_point *grid, planar_rest *out)
+/* Is w = 0 in the discs of all instants? */
+static bool zero_holds(const planar_motion *m, const planar_point *grid)
+{
+  const double zero[2] = {0};
+  double e[2];
+  planar_point root;
+  return outside(&grid[0], zero, e) <= 0 && !planar_stick_ends(m, grid, zero, &grid[0], TWO_PI, &root);
+}
+
+hc_status planar_rest_find(const planar_motion *m, const planar_point *grid, bool asked, planar_rest *out)
 {
   enum { NEWTON_STEPS = 2 };
   /* Half of the excursion that does not count as slip (planar_motion_noise). */
   const double noise = 8 * DBL_EPSILON * (m->of_u[0] + m->of_R[0]);
   *out = (planar_rest){.room = INFINITY};
+  if (asked && zero_holds(m, grid)) return out->exists = out->asked = true, HC_OK;
   for (int i = 0; i < MAX_EXCHANGES; ++i) {
     planar_point next;
     if (!(farthest(m, grid, out->centre, &next) <= noise - out->room)) {
@@ -317,7 +327,7 @@ void planar_rest_move(const planar_rest *r, const planar_disc_change *change, do
   double dc[2], dv;
   const double size = hypot(r->centre[0], r->centre[1]), room = fmax(r->room, 0);
   dw[0] = dw[1] = 0;
-  if (size <= room) return;
+  if (r->asked || size <= room) return;
   move_centre(r, change, dc, &dv);
   const double o[2] = {r->centre[0] / size, r->centre[1] / size}, along = o[0] * dc[0] + o[1] * dc[1];
   for (int d = 0; d < 2; ++d) dw[d] = dc[d] + dv * o[d] - room / size * (dc[d] - along * o[d]);

@@ -11,7 +11,9 @@
  *
  * With one tangent, time integration from w = 0 ends there, too. In a plane it approaches A, and ends at some point of
  * its border. The point of A nearest to 0 is no good convention: where A is small it is a corner of the lens of two
- * discs, which moves like the square root of the lens's width, so that branches would fold by that choice alone.
+ * discs, which moves like the square root of the lens's width, so that branches would fold by that choice alone. A rest
+ * that was asked for (contact_evaluator.h: start) is 0 of the motion here, and the slider stays there wherever it can,
+ * in all of A.
  *
  * c is determined by the two or three discs with the largest h there (or by one that lies inside all others). Method of
  * exchange: the disc with the largest h at c is added, and the one, two or three discs that determine the minimum for
@@ -26,6 +28,7 @@
 
 typedef struct planar_rest {
   bool exists;               /* room >= 0 to rounding: rest is possible */
+  bool asked;                /* it stays at w = 0, which was asked for: it does not move with the motion */
   double w[2];               /* [length] rest position; c if none exists */
   double centre[2], room;    /* [length] c; radius of the largest disc in A, negative if A is empty */
   int n;                     /* number of discs that determine c, 1 to 3 */
@@ -39,8 +42,9 @@ typedef struct planar_rest {
 bool planar_stick_ends(const planar_motion *m, const planar_point *grid, const double w[2], const planar_point *from,
                        double to, planar_point *root);
 
-/* The rest position of a contact that never opens. HC_NOT_CONVERGED: more than 100 exchanges. */
-hc_status planar_rest_find(const planar_motion *m, const planar_point *grid, planar_rest *out);
+/* The rest position of a contact that never opens; asked: w = 0 was asked for. HC_NOT_CONVERGED: more than 100
+ * exchanges. */
+hc_status planar_rest_find(const planar_motion *m, const planar_point *grid, bool asked, planar_rest *out);
 
 /* Change of the disc at a fixed instant: away = du.e - dR. Used only if one or two discs determine c: across =
  * du.e_perp; one disc only: radius = dR; two discs only: rate = du'.e - dR', derivative of `away` by th. */

@@ -73,7 +73,7 @@ static bool nearly_symmetric(const hbm_solver *s, const double *X)
 {
   const double rounding = 1e-6;
   const metric_at at = hbm_metric_at(s, X);
-  if (!s->symmetric) return false;
+  if (!s->symmetric || s->started) return false;
   take_even(s, s->sys.n_coef, X);
   return metric_length(&at, s->even_part) <= rounding;
 }

@@ -35,6 +35,7 @@ static hc_status make_equations(hbm_solver *s, int n_harm, int n_time, metric *s
   for (size_t i = 0; i < sizeof arrays / sizeof *arrays; ++i)
     *arrays[i] = workspace_doubles(&s->memory, (size_t)s->sys.n_coef + 1);
   s->x = workspace_doubles(&s->memory, (size_t)series_length(HBM_MAX_HARMONICS));
+  s->slider_starts = workspace_doubles(&s->memory, (size_t)s->model->n_contacts);
   const size_t unknowns = s->symmetric ? (size_t)s->sys.n : 0;
   s->whole_block = workspace_doubles(&s->memory, unknowns * unknowns);
   s->even_part = workspace_doubles(&s->memory, s->symmetric ? (size_t)s->sys.n_coef : 0);

@@ -48,6 +48,8 @@ struct hbm_solver {                 /* from hbm_solver_new, to hbm_solver_free; 
   const slip_edges *edges;          /* of the model's response curves; NULL: there are none */
   contact_forces *orbit;            /* locates the transitions of a solution of sampled equations; NULL when sys does */
   monodromy *monodromy;             /* NULL until it is needed */
+  double *slider_starts;            /* [n_contacts] [length] */
+  bool started;                     /* sliders were asked to begin elsewhere than at 0 (rests.h) */
   bool multipliers_unknown;         /* hbm_stability_is_unknown */
   known_stability *known_stability; /* [KNOWN_STABILITIES] of solutions asked about; NULL until the first */
   uint64_t multipliers_of;          /* fingerprint of the solution whose multipliers `monodromy` holds; 0: none's */

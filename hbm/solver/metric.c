@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "model/parts.h"
 #include "model/rest.h"
 #include "numerics/base/workspace.h"
 #include "numerics/norm.h"
@@ -101,30 +102,13 @@ static void end_contact(metric *m, double own)
   m->first[m->n + 1] = m->first[m->n];
 }
 
-static void join(int n, int *part, int a, int b)
-{
-  for (int i = 0; i < n && a != b; ++i)
-    if (part[i] == a) part[i] = b;
-}
-
 /* part[n] of each degree of freedom, part_of_q[dim] of each coordinate: two that a matrix, a contact's direction or a
  * coordinate joins are of one. unit[n], q[dim]: room. */
 static void find_parts(const model *of, const condensation *c, int dim, int *part, double *unit, double *q,
                        int *part_of_q)
 {
   const int n = of->n;
-  for (int i = 0; i < n; ++i) part[i] = i;
-  for (int i = 0; i < n; ++i)
-    for (int k = 0; k < n; ++k) {
-      const size_t at = (size_t)i * (size_t)n + (size_t)k;
-      if (of->mass[at] != 0 || of->damping[at] != 0 || of->stiffness[at] != 0) join(n, part, part[i], part[k]);
-    }
-  for (const model_contact *at = of->contacts; at < of->contacts + of->n_contacts; ++at)
-    for (int i = 0, last = -1; i < n; ++i) {
-      if (at->tangent[i] == 0 && at->normal[i] == 0) continue;
-      if (last >= 0) join(n, part, part[i], part[last]);
-      last = i;
-    }
+  model_find_parts(of, part);
   for (int d = 0; d < dim; ++d) part_of_q[d] = -1;
   for (int i = 0; i < n; ++i) {
     unit[i] = 1;
@@ -132,7 +116,7 @@ static void find_parts(const model *of, const condensation *c, int dim, int *par
     unit[i] = 0;
     for (int d = 0; d < dim; ++d) {
       if (q[d] == 0) continue;
-      if (part_of_q[d] >= 0) join(n, part, part[i], part[part_of_q[d]]);
+      if (part_of_q[d] >= 0) model_join_parts(n, part, part[i], part[part_of_q[d]]);
       part_of_q[d] = i;
     }
   }

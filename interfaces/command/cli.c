@@ -705,7 +705,8 @@ static unsigned extra_of(const cli_common *common, rows_kind kind)
 {
   const bool of_curves = kind == ROWS_CURVE || kind == ROWS_ACCURACY || kind == ROWS_ORDER;
   const unsigned of_case = cli_extra_columns(common->scene);
-  return (of_curves ? of_case & ROWS_IN_CYCLES : of_case) | (common->call ? ROWS_IN_MEMORY : 0u);
+  return (of_curves ? of_case & ROWS_IN_CYCLES : of_case) | (common->call ? ROWS_IN_MEMORY : 0u) |
+         (common->bands ? ROWS_BANDS : 0u);
 }
 
 bool cli_reads(const cli_common *common, rows_kind kind, const char *column)

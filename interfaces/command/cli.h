@@ -93,6 +93,7 @@ struct cli_common {
   const char *output;           /* --output; NULL: standard output */
   bool quiet;                   /* --quiet */
   bool wide;                    /* --wide */
+  bool bands;                   /* --band: of HBM's solutions, where a command has that option */
   plot_order drawing;           /* --plot; path NULL: no drawing */
   const scene *scene;           /* the case at work, for messages; NULL before cli_load_case */
   cli_call *call;               /* of a program (call.h): it gets what else is printed; NULL: of a shell */

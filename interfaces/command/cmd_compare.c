@@ -209,6 +209,9 @@ static void put_rows(const cli_common *common, comparison *c, table *t)
   }
 }
 
+/* Shown where a solution has a band. */
+static const char *const band_columns[] = {"band_low", "band_high", "band_width", "band_kind", "from_history", NULL};
+
 /* The tables of what was found, and that it is not all unless st is HC_OK; how many. */
 static int tables_of_found(const cli_common *common, bool contacts, const compare_setup *setup, comparison *c,
                            hc_status st, table **tables)
@@ -217,7 +220,8 @@ static int tables_of_found(const cli_common *common, bool contacts, const compar
   table *t = table_of_rows(common, c);
   const comparison_row *top = comparison_worst(c, setup->limits);
   double reduction = 0;
-  int unaccounted = 0, beside = 0, unknown = 0, creeping = 0, mean_free = 0, family = 0, still = 0;
+  int unaccounted = 0, beside = 0, unknown = 0, creeping = 0, mean_free = 0, family = 0, still = 0, bands = 0,
+      at_least = 0;
   put_rows(common, c, t);
   for (int i = 0; i < c->n_rows; ++i) {
     const comparison_row *r = &c->rows[i];
@@ -228,6 +232,8 @@ static int tables_of_found(const cli_common *common, bool contacts, const compar
     creeping += r->transient_status == HC_CREEPS;
     family += r->family;
     still += r->still;
+    bands += r->band.kind == BAND_EXACT || r->band.kind == BAND_AT_LEAST;
+    at_least += r->band.kind == BAND_AT_LEAST;
     reduction = fmax(reduction, r->budget.reduction);
   }
   if (unaccounted)
@@ -250,6 +256,8 @@ static int tables_of_found(const cli_common *common, bool contacts, const compar
   note_rows(t, mean_free,
             "without a mean to compare (mean_free): a slider that never slips rests where the history left it, and the "
             "mean, max, min and rms with it");
+  for (const char *const *name = band_columns; bands == 0 && *name; ++name) table_hide(t, *name);
+  note_rows(t, at_least, "whose band may be wider: several sliders never slip, or a member could not be followed");
   note_rows(t, family,
             "of a family of steady states: where a slider that never slips rests decides on the harmonics, too. HBM is "
             "compared with the one whose sliders start where its own do");

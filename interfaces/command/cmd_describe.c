@@ -161,7 +161,7 @@ static int write_columns(const cli_common *common)
   table *t = table_new("Columns", CLI_COLUMNS(columns));
   for (int kind = 0; kind < ROWS_KINDS; ++kind) {
     table_column of[ROWS_MOST];
-    const int n = rows_columns((rows_kind)kind, ROWS_IN_CYCLES | ROWS_RESPONSES | ROWS_IN_MEMORY, of);
+    const int n = rows_columns((rows_kind)kind, ROWS_IN_CYCLES | ROWS_RESPONSES | ROWS_IN_MEMORY | ROWS_BANDS, of);
     for (int i = 0; i < n; ++i)
       TABLE_ROW(t, CELL(rows_name((rows_kind)kind)), CELL(of[i].name), CELL_IF(*of[i].unit, of[i].unit),
                 CELL(of[i].meaning));

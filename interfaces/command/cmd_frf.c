@@ -29,6 +29,7 @@ typedef struct frf_options {
   number_list at;       /* n = 0: the whole curve */
   const char *response; /* NULL: all of them */
   bool contacts;        /* what each contact does, too */
+  bool band;            /* of each solution */
   bool verbose;         /* how Newton's equations were solved, too */
 } frf_options;
 
@@ -36,6 +37,8 @@ static const cli_option options[] = {
     {CLI_LIST, "at", "LIST", "Only the solutions at these " CLI_FREQUENCIES, offsetof(frf_options, at)},
     CLI_RESPONSE_OPTION(frf_options),
     CLI_CONTACTS_OPTION(frf_options),
+    {CLI_FLAG, "band", NULL, "With --at: the least and largest amplitude as sliders rest elsewhere that never slip",
+     offsetof(frf_options, band)},
     {CLI_FLAG, "verbose", NULL, "Also how Newton's equations were solved", offsetof(frf_options, verbose)},
     CLI_PLOT_OPTION,
     {0},
@@ -49,6 +52,10 @@ typedef struct found_points {
   progress *bar;
   double began;                        /* [s] processor time of this thread */
   double X[2 * HBM_MAX_HARMONICS + 1]; /* of a response, for programs */
+  band_search *search;                 /* NULL without --band */
+  model *model;                        /* of that */
+  band *bands;                         /* [responses] of the point under way */
+  const hc_monitor *monitor;
   bool free;                           /* a slider that never slips leaves a mean to history */
   int points;                          /* so many */
   double last;                         /* [rad/time] the last one's omega */
@@ -65,11 +72,24 @@ static table *table_of_points(const cli_common *common)
   return t;
 }
 
+/* f->search and f->bands, by harmonic balance alone. */
+static hc_status make_search(found_points *f, const scene *sc)
+{
+  model *m;
+  hc_status st = scene_model(sc, &m);
+  if (st != HC_OK) return st;
+  f->bands = calloc((size_t)m->n_responses, sizeof *f->bands);
+  st = f->bands ? band_search_new(m, f->s, NULL, &f->search) : HC_NO_MEMORY;
+  f->model = m;
+  return st;
+}
+
 static hc_status put_point(found_points *f, const hbm_curve *c, int k)
 {
   const scene_structure *of = f->common->scene->structure;
   response_row row;
   hc_status st = response_row_of(f->s, c, k, &row);
+  if (st == HC_OK && f->search) st = band_find(f->search, row.point.omega, hbm_curve_X(c, k), f->monitor, f->bands);
   for (int r = f->of_case.first; r <= f->of_case.last && st == HC_OK; ++r) {
     if (r > 0) st = response_row_turn(f->s, c, k, r, &row);
     if (st == HC_OK && f->common->call) {
@@ -77,6 +97,7 @@ static hc_status put_point(found_points *f, const hbm_curve *c, int k)
       row.series = f->X;
     }
     if (!of->is_oscillator) structure_response_name(of, r, row.response, sizeof row.response);
+    if (st == HC_OK && f->search) row.band = f->bands[r];
     f->free |= row.measures.contact.free_sliders > 0;
     pthread_mutex_lock(&f->beside.found);
     cli_put_row(f->common, f->kept, ROWS_FRF, &row);
@@ -262,6 +283,8 @@ static int run_frf(cli_common *common, void *given, scene *sc)
   if (!own->at.n) sc->compare.omega.n = 0; /* those of the case are for the comparison */
   const int refused = cli_take_frequencies(common, &own->at, true, sc);
   if (refused) return refused;
+  if (own->band && !own->at.n) return cli_failed(common, EXIT_USAGE, "--band: at which frequencies? --at LIST was expected");
+  common->bands = own->band;
   hbm_curve curve = {0}, found = {0};
   double from, to, failed_at = 0, drift = NAN;
   char name[RESPONSE_NAME] = "";              /* of the response that creeps */
@@ -282,6 +305,8 @@ static int run_frf(cli_common *common, void *given, scene *sc)
   comparison_sweep(sc->omega_from, sc->omega_to, at, &from, &to);
   hc_status st = scene_hbm_solver(sc, &f.s);
   hbm_solver *s = f.s;
+  f.monitor = &monitor;
+  if (st == HC_OK && own->band) st = make_search(&f, sc);
   if (st == HC_OK) {
     if (at->n) found.watch = (hbm_curve_watch){put_points, &f};
     else curve.watch = (hbm_curve_watch){put_curve, &f};
@@ -332,6 +357,9 @@ static int run_frf(cli_common *common, void *given, scene *sc)
   table_free(f.contacts_kept);
   hbm_curve_free(&found);
   hbm_curve_free(&curve);
+  band_search_free(f.search);
+  free(f.bands);
+  model_free(f.model);
   hbm_solver_free(s);
   return code ? code : written;
 }

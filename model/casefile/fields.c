@@ -29,6 +29,7 @@ static const char *const start_names[] = {[TRANSIENT_START_HBM] = "hbm",
 #define LAW_NAME(code, name) #name,
 static const char *const contact_law_names[] = {"contact", CONTACT_SMOOTH_LIST(LAW_NAME) "table", NULL};
 static const char *const limit_names[] = {[CONTACT_LIMIT_CIRCLE] = "circle", [CONTACT_LIMIT_SQUARE] = "square", NULL};
+static const char *const band_names[] = {[COMPARE_BAND_AUTO] = "auto", [COMPARE_BAND_OFF] = "off", NULL};
 static const char *const nonlinear_names[] = {
     [GATE_NONLINEAR_ANY] = "any", [GATE_NONLINEAR_REQUIRED] = "required", NULL};
 
@@ -255,6 +256,8 @@ static const field table[] = {
    WITHIN(1, HBM_MAX_HARMONICS), .meaning = "truncation orders of the table that compare --tables prints"},
   {"compare", "samples", "", FIELD_INTEGERS, .unit = "1", SCENE(compare.samples), .fallback = "[32, 128, 512, 2048]",
    WITHIN(3, MOST_SAMPLES), .meaning = "sampling rates of that table; exact forces stand beside them"},
+  {"compare", "band", "", CHOICE(band_names, compare.band), .fallback = "auto",
+   .meaning = "auto: the amplitudes of all steady states that differ by where sliders rest that never slip"},
 
   {"gate", "amplitude", "", FIELD_REAL, .unit = "1", SCENE(gate.most.amplitude), .fallback = "1e-3", POSITIVE,
    .meaning = "of (max - min)/2 over a period"},
@@ -264,6 +267,8 @@ static const field table[] = {
    .meaning = "of harmonic 0"},
   {"gate", "waveform", "", FIELD_REAL, .unit = "1", SCENE(gate.most.waveform), .fallback = "5e-3", POSITIVE,
    .meaning = "anywhere in the period"},
+  {"gate", "band", "", FIELD_REAL, .unit = "1", SCENE(gate.band), .fallback = "inf", POSITIVE,
+   .meaning = "half width of the band of steady states, relative; inf: any, and the verdict says `family`"},
   {"gate", "nonlinear", "", CHOICE(nonlinear_names, gate.nonlinear), .fallback = "any",
    .meaning = "required: fail if no contact changes its state at any frequency; any: only say so"},
   {"gate", "proven", "", FIELD_FLAG, .unit = "", SCENE(gate.proven), .fallback = "false",

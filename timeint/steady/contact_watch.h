@@ -17,3 +17,8 @@
  * repeats after k periods the work and the slip path are those of one, on average. Of the two directions of a circle
  * each has half of N; |T|, path and work in the plane are in the first's. HC_NO_MEMORY, errors of integration. */
 hc_status timeint_contacts(timeint *ti, const timeint_result *r, contact_period *out);
+
+/* room[n_contacts][2] [force]: of each contact that sticks all along these periods the least of mu N - T and of
+ * mu N + T; of a circle's first direction the least of mu N - |T|, twice. Meaningless of others. Errors as of
+ * timeint_contacts. */
+hc_status timeint_slider_rooms(timeint *ti, const timeint_result *r, double (*room)[2]);

@@ -451,6 +451,7 @@ static const struct verdict_look {
   const char *name, *look;
 } verdict_looks[] = {
     {"match", "pt 6 ps 1.2 lw 1.6 lc rgb '#D55E00'"},
+    {"family", "pt 7 ps 0.9 lc rgb '#D55E00'"},
     {"settled", "pt 6 ps 1.2 lw 1.6 lc rgb '#D55E00'"},
     {"differs", "pt 5 ps 1.0 lc rgb '#000000'"},
     {"other_branch", "pt 8 ps 1.2 lw 1.6 lc rgb '#009E73'"},

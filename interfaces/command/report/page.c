@@ -78,9 +78,7 @@ static void write_budget(page *p)
     html_cell_text(p->to, comparison_verdict_text(r, text));
     html_cell_number(p->to, r->branch >= 0 && r->hbm_status == HC_OK ? r->hbm.amplitude : NAN);
     html_cell_number(p->to, motion_is_measured(r->transient_status) ? r->transient.amplitude : NAN);
-    html_cell_bar(p->to, r->errors.amplitude,
-                  r->verdict == VERDICT_MATCH || r->verdict == VERDICT_DIFFERS ? p->d->sc->gate.most.amplitude
-                                                                               : INFINITY);
+    html_cell_bar(p->to, r->errors.amplitude, comparison_one_orbit(r) ? p->d->sc->gate.most.amplitude : INFINITY);
 #define BAR(part) html_cell_bar(p->to, b->part, p->d->sc->gate.most.amplitude);
     BUDGET_PARTS(BAR)
 #undef BAR

@@ -182,7 +182,7 @@ static worst_errors find_worst(const comparison *c)
     const comparison_row *r = &c->rows[i];
     const double errors[] = {r->errors.amplitude, r->errors.harmonic_1, r->errors.mean, r->errors.waveform};
     /* elsewhere the two are not the same motion */
-    if (r->verdict != VERDICT_MATCH && r->verdict != VERDICT_DIFFERS) continue;
+    if (!comparison_one_orbit(r)) continue;
     w.mean_free |= comparison_mean_free(r);
     for (int k = 0; k < MEASURES; ++k)
       if (errors[k] > w.error[k] || isnan(w.error[k])) w.error[k] = errors[k], w.omega[k] = r->omega;

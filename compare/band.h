@@ -1,0 +1,54 @@
+/* band.h - all steady states that differ from an HBM solution by where its free sliders rest (hbm/solver/rests.h): the
+ * least and the largest amplitude of each response among them.
+ *
+ * Which they are: the members of the family at this omega that can be reached from the solution by moving the rests. A
+ * member is followed along one rest at a time, other sliders being dragged along where they cannot stay, from limit to
+ * limit; where on the way another contact ceases to slip it is one rest more, and both ways along that are followed, too.
+ * The largest and the least amplitude may lie between: there the rate by the rest changes its sign.
+ *     exact      one free slider at a time, or the contacts are linear and amplitudes stand still: every member was seen
+ *     at least   several free sliders: beside these lines the amplitude is climbed and descended along its gradient from
+ *                the best members; or a line could not be followed to its end
+ * No member has another amplitude, and nothing is searched, where no rest can change a normal force that varies, or a
+ * gap (STRUCTURE: the energy of the difference of two motions only falls, and is constant for periodic ones): each
+ * uncoupled part of the structure by itself; or where the part has one contact alone. */
+#pragma once
+
+#include "compare/compare_settings.h"
+#include "hbm/hbm.h"
+#include "timeint/steady/steady.h"
+
+typedef enum band_kind { BAND_NOT_ASKED, BAND_NONE /* there is no free slider */, BAND_EXACT, BAND_AT_LEAST } band_kind;
+const char *band_kind_name(band_kind kind); /* "none", "exact", "at least"; "" if it was not asked */
+
+/* Of one response. */
+typedef struct band {
+  band_kind kind;
+  double low, high; /* [length] the least and the largest amplitude; NaN: not known */
+  bool confirmed;   /* both are those of the exact law's orbits, with these rests; else harmonic balance's own */
+} band;
+
+/* [1] (high - low)/(high + low); NaN where there is none. */
+double band_width(const band *b);
+
+/* [1] By how much the amplitude is off at most, relative, where the slider rests elsewhere; NaN without a band. */
+double band_from_history(const band *b, double amplitude);
+
+/* Workspace for the bands of one model; one a thread. */
+typedef struct band_search band_search;
+
+/* s: the solver of the solutions to come; exact: the exact law's time integration, by which the ends are confirmed and
+ * located; NULL: those of harmonic balance. Both must outlive it. HC_NO_MEMORY. */
+hc_status band_search_new(const model *m, hbm_solver *s, timeint *exact, band_search **out);
+void band_search_free(band_search *b); /* NULL is allowed */
+
+/* out[responses]: of the solution X at omega. HC_OK, also where members could not be followed: `at least`. HC_NO_MEMORY,
+ * HC_INTERRUPTED. The solver's sliders begin at 0 again afterwards. */
+hc_status band_find(band_search *b, double omega, const double *X, const hc_monitor *monitor, band *out);
+
+/* Where the free sliders rest at the least (false) or largest (true) amplitude of response r, of the last search:
+ * w[contacts], and the harmonics there, coefficients of hbm_solver. NULL: nothing was searched. */
+const double *band_rests(const band_search *b, int r, bool high);
+const double *band_member(const band_search *b, int r, bool high);
+
+/* Systems that Newton was put to in all searches. */
+long band_solves(const band_search *b);
