@@ -84,6 +84,7 @@ hc_status model_copy_sized(const model *m, int n_contacts, int n_responses, mode
     copy->contacts[j].law = m->contacts[j].law;
     copy->contacts[j].pair = m->contacts[j].pair;
     copy->contacts[j].circle = m->contacts[j].circle;
+    copy->contacts[j].rest = m->contacts[j].rest;
     memcpy(copy->contacts[j].tangent, m->contacts[j].tangent, vector);
     memcpy(copy->contacts[j].normal, m->contacts[j].normal, vector);
   }
@@ -175,6 +176,7 @@ bool model_is_symmetric(const model *m)
   for (int l = 0; l < m->n_loads; ++l)
     if (m->loads[l].harmonic % 2 == 0) return false;
   for (int j = 0; j < m->n_contacts; ++j) {
+    if (m->contacts[j].rest != 0) return false;
     bool symmetric = law_is_odd(&m->contacts[j].law);
     for (int k = 0; k < m->n_contacts && !symmetric; ++k)
       symmetric = k != j && face_each_other(m->n, &m->contacts[j], &m->contacts[k]);

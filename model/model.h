@@ -32,6 +32,7 @@ typedef struct model_contact {
   double *tangent, *normal; /* [n] [1] u = tangent . x, v = normal . x; all 0 if the contact has no such direction */
   contact_pair pair;
   bool circle; /* the law of the circle; set in both halves of a pair */
+  double rest; /* [length] where the slider begins */
 } model_contact;
 
 /* cosine cos(k omega t) + sine sin(k omega t), k = harmonic >= 0: one load for each k. An inertial load is that of a
@@ -87,7 +88,7 @@ bool model_is_smooth(const model *m);
 /* True if any contact follows a law with kinks. */
 bool model_has_kinks(const model *m);
 
-/* True if -x(t + T/2) is a solution for each solution x(t): loads of odd harmonics only, and each contact has a law
+/* True if -x(t + T/2) is a solution for each solution x(t): sliders that begin at 0, loads of odd harmonics only, and each contact has a law
  * that is odd in x, or an opposite contact of the same law: normals opposite, tangents along one line. */
 bool model_is_symmetric(const model *m);
 

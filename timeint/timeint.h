@@ -46,5 +46,6 @@ void timeint_count(const timeint *ti, long *by_cvode, long *closed_form);
 /* Doubles in a state: 2 n + the model's contacts. */
 int timeint_n_states(const timeint *ti);
 
-/* state[timeint_n_states]: at rest under the static loads, v = w_j = 0; x = 0 where there are none. */
+/* state[timeint_n_states]: at rest under the static loads, v = 0, sliders where they begin (model.h); x = 0 where
+ * there are no loads. */
 void timeint_rest(const timeint *ti, double *state);

@@ -97,6 +97,20 @@ static void check_errors(judge *j, const comparison_row *r, const discrepancy *e
   }
 }
 
+/* With gate.band, of each solution with a band; one that may be wider has not passed. */
+static void judge_band(judge *j, const comparison_row *r)
+{
+  gate_check c = check_of(r, "band", "limit");
+  c.allowed = j->setup->limits->band;
+  c.found = band_width(&r->band);
+  if (!isfinite(c.allowed) || r->band.kind == BAND_NONE || r->branch < 0) return;
+  if (isnan(c.found)) not_passed(&c, GATE_ERROR, "the band of steady states is not known; compare.band: auto finds it");
+  else if (!within(c.found, c.allowed)) c.result = GATE_FAIL;
+  else if (r->band.kind == BAND_AT_LEAST)
+    not_passed(&c, GATE_ERROR, "the band is this wide at least: more than one slider never slips");
+  add(j, &c);
+}
+
 static void judge_transient(judge *j, const comparison_row *r)
 {
   gate_check c = check_of(r, "transient", "transient");
@@ -124,6 +138,7 @@ static void judge_orbit(judge *j, const comparison_row *r)
 
 static void judge_solution(judge *j, const comparison_row *r)
 {
+  judge_band(j, r);
   gate_check lost = check_of(r, "solution", NULL);
   switch (r->verdict) {
   case VERDICT_MATCH:

@@ -151,6 +151,12 @@ hc_status contact_forces_new(const model *m, const condensation *c, hbm_force fo
   }
   const hc_status st = contact_forces_new_of(condensation_dim(c), m->n_contacts, placed, force, how, out);
   free(placed);
+  double w[2];
+  for (int i = 0; st == HC_OK && i < (*out)->n_members; ++i) {
+    const member *at = &(*out)->members[i];
+    for (int d = 0; d < at->contacts; ++d) w[d] = m->contacts[at->first + d].rest;
+    if (at->by.start) at->by.start(at->evaluator, w);
+  }
   return st;
 }
 

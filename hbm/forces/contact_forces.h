@@ -19,7 +19,7 @@ typedef struct contact_forces contact_forces;
 hc_status contact_forces_new_of(int dim, int n, const placed_contact *contacts, hbm_force force,
                                 const evaluator_settings *how, contact_forces **out);
 
-/* The contacts of m in the coordinates of c. */
+/* The contacts of m in the coordinates of c; their sliders begin where m says. */
 hc_status contact_forces_new(const model *m, const condensation *c, hbm_force force, const evaluator_settings *how,
                              contact_forces **out);
 void contact_forces_free(contact_forces *f); /* NULL is allowed */

@@ -44,6 +44,10 @@ static hc_status make_equations(hbm_solver *s, int n_harm, int n_time, metric *s
   s->even_pivot = workspace_array(&s->memory, unknowns, sizeof *s->even_pivot);
   s->n_time = n_time;
   if (st == HC_OK) st = s->memory.failed ? HC_NO_MEMORY : hbm_corrector_new(s);
+  for (int j = 0; j < s->model->n_contacts && st == HC_OK; ++j) {
+    s->slider_starts[j] = s->model->contacts[j].rest;
+    s->started |= s->slider_starts[j] != 0;
+  }
   const evaluator_settings exact = {.n_harm = n_harm};
   if (st == HC_OK && s->how.force != HBM_FORCE_EXACT)
     st = contact_forces_new(s->model, s->sys.linear, HBM_FORCE_EXACT, &exact, &s->orbit);

@@ -10,7 +10,7 @@ void hbm_start_sliders(hbm_solver *s, const double *w)
 {
   const int n = s->model->n_contacts;
   double *const at = s->slider_starts;
-  for (int j = 0; j < n; ++j) at[j] = w ? w[j] : 0;
+  for (int j = 0; j < n; ++j) at[j] = w ? w[j] : s->model->contacts[j].rest;
   s->started = !is_zero(n, at);
   s->sys.evaluated = false;
   contact_forces_start(s->sys.contacts, at);

@@ -6,7 +6,8 @@
 
 #include "hbm/solver/hbm_solver.h"
 
-/* Solutions to come have their sliders begin at w[n_contacts] [length]; NULL: at 0, as they do at first. */
+/* Solutions to come have their sliders begin at w[n_contacts] [length]; NULL: where the model has
+ * them begin, as at first. */
 void hbm_start_sliders(hbm_solver *s, const double *w);
 
 /* Of the solution X: w[n_contacts] as hbm_sliders, and which are free; two tangents under one limit both or none. Errors

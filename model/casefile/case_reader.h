@@ -26,6 +26,7 @@ typedef struct case_reader {
   case_place end;         /* of the file's text; line = 0 before it is known         */
   scene sc;               /* as far as it has been read                              */
   mesh *mesh;             /* of sc.structure->mesh, once it was asked for; or NULL   */
+  const yaml_node_t *rests; /* the value of transient.rest, until the contacts are read; or NULL */
   bool owns_structure;    /* or shares it with the scene it was started from         */
   bool takes_large;       /* matrices of more than most_dense rows are kept sparse, not refused */
   int most_dense;
@@ -151,6 +152,9 @@ const field *yaml_given_rival(const case_reader *r, const field *f);
 
 /* No field of contacts (FIELD_IN_CONTACT) or of loads (FIELD_IN_LOAD) has been given yet: the next one begins. */
 void yaml_forget_fields(case_reader *r, unsigned of);
+
+/* What transient.rest holds, into the contacts; nothing where it was not given. */
+hc_status yaml_rests_read(case_reader *r);
 
 /* The value of one field, of contact or load j if it is one of theirs, into base (fields.h). */
 hc_status yaml_scene_value(case_reader *r, const field *f, int j, void *base, const yaml_node_t *node);

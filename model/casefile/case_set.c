@@ -261,7 +261,10 @@ hc_status case_target_read(case_reader *r, case_target t, const yaml_node_t *nod
   if (t.f && yaml_is_law_part(t.f) && !case_target_base(r, t)) return HC_NO_MEMORY;
   r->sc.structure->place = r->here;
   if (!t.f) return read_list(r, t, node);
-  if (t.list == CASE_NO_LIST) return yaml_structure_part(r, t.f, node);
+  if (t.list == CASE_NO_LIST) {
+    st = yaml_structure_part(r, t.f, node);
+    return st == HC_OK ? yaml_rests_read(r) : st;
+  }
   st = yaml_entry_part(r, t.f, t.index, node);
   if (st == HC_OK) case_target_given(r, t);
   return st;

@@ -21,6 +21,7 @@ typedef struct scene_contact {
   char name[SCENE_NAME]; /* of a structure's contact, or "" */
   contact_limit limit;   /* of a structure's contact with two tangents */
   int kind;
+  double rest[2]; /* [length] where the slider of each tangent begins */
   int n_points;
   double points[SCENE_MOST_POINTS][2]; /* [length] ascending, [force] of a table */
 } scene_contact;

@@ -322,6 +322,7 @@ static void set_contact(const scene_structure *s, const structure_contact *c, co
   to->law = scene_contact_law(&c->given);
   memcpy(to->tangent, tangent, bytes);
   memcpy(to->normal, c->normal, bytes);
+  to->rest = c->given.rest[0];
   if (!c->by_angle) return;
   const moving_contact one = scene_moving_contact(&c->given);
   *to->tangent = *one.cu, *to->normal = *one.cv;
@@ -333,6 +334,7 @@ static void set_pair(const scene_structure *s, const structure_contact *c, model
   for (int d = 0; d < 2; ++d) {
     set_contact(s, c, d == 0 ? c->tangent : c->tangent_2, &to[d]);
     to[d].law = model_half_law(&whole);
+    to[d].rest = c->given.rest[d];
     to[d].pair = d == 0 ? CONTACT_FIRST : CONTACT_SECOND;
     to[d].circle = c->given.limit == CONTACT_LIMIT_CIRCLE;
   }

@@ -1,4 +1,5 @@
 /* yaml_scene.c - from a YAML document to a scene, every key through the table of fields. The first mistake ends it. */
+#include <stdlib.h>
 #include <string.h>
 
 #include "model/casefile/case_reader.h"
@@ -30,6 +31,38 @@ static hc_status read_section(case_reader *r, const field_section *s, const yaml
     return HC_BAD_INPUT;
   }
   return HC_OK;
+}
+
+/* The contact that a key of transient.rest means; -1: none. */
+static int contact_of(const scene_structure *s, const yaml_node_t *key)
+{
+  const char *text = yaml_node_text(key);
+  char *end;
+  const int named = structure_contact_named(s, text, key->data.scalar.length);
+  const long index = named < 0 ? strtol(text, &end, 10) : named;
+  const bool is_index = named >= 0 || (end != text && !*end);
+  return is_index && index >= 0 && index < s->n_contacts ? (int)index : -1;
+}
+
+hc_status yaml_rests_read(case_reader *r)
+{
+  const yaml_node_t *node = r->rests;
+  const field *fields[] = {field_named("contacts", "rest"), field_named("contacts", "rest_2")};
+  hc_status st = HC_OK;
+  r->rests = NULL;
+  if (!node) return HC_OK;
+  if (node->type != YAML_MAPPING_NODE)
+    return yaml_refuse(r, node, "transient.rest is %s, expected a mapping {CONTACT: W, ...}", yaml_node_what(node));
+  for (int i = 0; i < yaml_keys(node) && st == HC_OK; ++i) {
+    const yaml_node_t *key = yaml_key(r, node, i), *value = yaml_value(r, node, i);
+    const int j = key->type == YAML_SCALAR_NODE ? contact_of(r->sc.structure, key) : -1;
+    if (j < 0) return yaml_refuse(r, key, "transient.rest: no such contact, expected a name or a number from 0");
+    const bool both = value->type == YAML_SEQUENCE_NODE && yaml_length(value) == 2;
+    for (int d = 0; d < 1 + both && st == HC_OK; ++d)
+      st = yaml_scene_value(r, fields[d], j, &r->sc.structure->contacts[j].given,
+                            both ? yaml_entry(r, value, d) : value);
+  }
+  return st;
 }
 
 static hc_status read_top_level(case_reader *r, const yaml_node_t *key, const yaml_node_t *value, case_place *given)
@@ -85,6 +118,7 @@ hc_status yaml_scene_read(case_reader *r, const yaml_node_t *root)
   if (structure >= 0) st = read_top_level(r, yaml_key(r, root, structure), yaml_value(r, root, structure), given);
   for (int i = 0; i < yaml_keys(root) && st == HC_OK; ++i)
     if (i != structure) st = read_top_level(r, yaml_key(r, root, i), yaml_value(r, root, i), given);
+  if (st == HC_OK) st = yaml_rests_read(r);
   if (st != HC_OK) return st;
   const field_section *s;
   for (int i = 1; (s = field_section_at(i)) != NULL; ++i) {

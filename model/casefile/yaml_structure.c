@@ -300,6 +300,13 @@ static size_t content_end(case_reader *r, const yaml_node_t *node)
   return content_end(r, mapping ? yaml_value(r, node, n - 1) : yaml_entry(r, node, n - 1));
 }
 
+/* transient.rest, which may stand before the contacts. */
+static hc_status keep_rests(case_reader *r, const yaml_node_t *node)
+{
+  r->rests = node;
+  return HC_OK;
+}
+
 hc_status yaml_structure_part(case_reader *r, const field *f, const yaml_node_t *node)
 {
   static const struct {
@@ -309,7 +316,7 @@ hc_status yaml_structure_part(case_reader *r, const field *f, const yaml_node_t 
                {"damping", read_damping},    {"names", read_names},
                {"nodes", read_nodes},        {"mesh", read_mesh},
                {"direction", read_base},     {"response", yaml_responses_read},
-               {"reduction", read_reduction}};
+               {"reduction", read_reduction}, {"rest", keep_rests}};
   size_t i = 0;
   if (f->flags & FIELD_IN_STRUCTURE) return read_damping_value(r, f, node);
   while (strcmp(parts[i].name, f->name)) ++i;

@@ -14,6 +14,7 @@
 
 #include <complex.h>
 
+#include "numerics/base/constants.h"
 #include "timeint/steady/linear_regime.h"
 #include "timeint/steady/shoot.h"
 #include "timeint/steady/timeint_private.h"
@@ -83,10 +84,23 @@ static double complex move_of(const timeint *ti, const double *from, const doubl
   return sum;
 }
 
+/* Half the width of a linear resonance at half its power, relative to omega: of the least damped mode that has damping.
+ * One without, as of a wedge between its contacts, is damped by these, or has no width to go by. */
+static double half_width(const timeint *ti)
+{
+  const modal_base *b = ti->base;
+  double least = INFINITY;
+  for (int i = 0; i < b->n; ++i) {
+    const double decay = 0.5 * b->C[b->diagonal_C ? i : i * (b->n + 1)];
+    if (decay > no_damping * ti->omega) least = fmin(least, decay);
+  }
+  return isfinite(least) ? least / ti->omega : no_damping;
+}
+
 /* Periods at one frequency until the state has settled. *moved: how far it went; NaN if it did not settle. */
 static hc_status settle_by_marching(timeint *ti, const hc_monitor *monitor, double done, double *moved)
 {
-  const double slow = fmax(1 - ti->contraction, slowest);
+  const double slow = fmax(1 - exp(-TWO_PI * half_width(ti)), slowest);
   const int most = (int)ceil(MAX_FOLDS / slow);
   double *const *z = ti->point; /* before the first period; before and after the last */
   double complex moves[2] = {0, 0};
@@ -107,9 +121,6 @@ static hc_status settle_by_marching(timeint *ti, const hc_monitor *monitor, doub
   *moved = NAN;
   return HC_OK;
 }
-
-/* Half the width of a linear resonance at half its power, relative to omega. */
-static double half_width(const timeint *ti) { return fmax(ti->base->slowest / ti->omega, no_damping); }
 
 static double least_step(const timeint *ti) { return fmin(smallest_step, step_of_width * half_width(ti)); }
 

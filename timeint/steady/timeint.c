@@ -213,7 +213,31 @@ void timeint_count(const timeint *ti, long *by_cvode, long *closed_form)
 
 int timeint_n_states(const timeint *ti) { return ti->n; }
 
+/* Where slider j begins, put into its limit at rest. */
+static double start_of(const timeint *ti, int j)
+{
+  const model_contact *c = &ti->model->contacts[j];
+  double w = c->rest - ti->rest_u[j], T;
+  if (c->rest == 0 || c->circle || !contact_has_friction(&c->law)) return c->rest;
+  contact_step(&c->law, 0, 0, &w, &T);
+  return w + ti->rest_u[j];
+}
+
+/* Both tangents of a circle, whose first is contact j. */
+static void put_into_circle(const timeint *ti, int j, double *w)
+{
+  const model_contact *c = &ti->model->contacts[j];
+  const double at_rest[2] = {0};
+  double from[2] = {w[0] - ti->rest_u[j], w[1] - ti->rest_u[j + 1]}, T[2];
+  if (!c->circle || c->pair != CONTACT_FIRST || (w[0] == 0 && w[1] == 0)) return;
+  contact_step_planar(&c->law, at_rest, 0, from, T);
+  for (int d = 0; d < 2; ++d) w[d] = from[d] + ti->rest_u[j + d];
+}
+
 void timeint_rest(const timeint *ti, double *state)
 {
-  for (int i = 0; i < ti->n; ++i) state[i] = i < ti->n_dof ? ti->rest[i] : 0;
+  for (int i = 0; i < 2 * ti->n_dof; ++i) state[i] = i < ti->n_dof ? ti->rest[i] : 0;
+  double *w = state + 2 * ti->n_dof;
+  for (int j = 0; j < ti->model->n_contacts; ++j) w[j] = start_of(ti, j);
+  for (int j = 0; j + 1 < ti->model->n_contacts; ++j) put_into_circle(ti, j, w + j);
 }
