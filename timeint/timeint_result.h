@@ -43,7 +43,10 @@ typedef struct timeint_result {
   int switches;     /* contact transitions in the reported periods; exact law only */
   bool left_orbit;  /* the orbit next to the start is unstable; reported is the one the motion went to from there */
   double lyapunov;  /* [1/period] mean rate at which neighbours drift apart; NaN where it was not measured */
-  double second_frequency;   /* [rad/time] of a motion on a torus, between 0 and omega/2, see aperiodic.h; else NaN */
+  double second_frequency; /* [rad/time] of a motion on a torus, between 0 and omega/2, see aperiodic.h; else NaN */
+  double window_low, window_high; /* [length] least and largest amplitude of one period among the next `window`
+                                     ones, of a motion that does not repeat; else NaN, window 0 */
+  int window;
   double drift;              /* [length/period] of the response of a body that creeps (HC_CREEPS); else NaN */
   motion_error predicted;    /* [length] what timeint_predict expects; NaN before */
   contact_regime regime;     /* strongest regime of any contact in the reported period */

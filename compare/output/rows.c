@@ -129,6 +129,11 @@ static const char *stability_text(int s) { return s > 0 ? "stable" : s < 0 ? "un
   X(RESPONSES, REAL, second_frequency, "rad/time", "of a torus, up to sign and multiples of omega", measured(r), \
     r->result.second_frequency) \
   DRIFT(X, r->status, r->result.drift) \
+  X(ALL, REAL, window_low, "length", "of what does not repeat: the least amplitude of one period", measured(r), \
+    r->result.window_low) \
+  X(ALL, REAL, window_high, "length", "and the largest", measured(r), r->result.window_high) \
+  X(ALL, INTEGER, window, "", "of so many periods, from the row's own on", measured(r) && r->result.window > 0, \
+    r->result.window) \
   X(IN_MEMORY, TEXT, stable, "", "yes, no or unknown", true, \
     settled(r) ? verdict_in_words(timeint_stability(&r->result)) : "unknown") \
   X(IN_MEMORY, TEXT, status, "", "why there is no steady state, or ok", true, hc_status_text(r->status)) \
@@ -375,7 +380,7 @@ static const char *const of_frf[] = {
 static const char *const of_transient[] = {
     "omega", "steps", "period", "multiplier", "free_sliders", "period_multiple", "periods", "rms",
     "from_regularisation", "min", "max", "method", "contact", "lyapunov", "harmonic_1", "closure", "start",
-    "mean", "second_frequency", NULL};
+    "mean", "window", "second_frequency", NULL};
 
 static const char *const of_compare[] = {
     "omega", "hbm_predicted_harmonic_1", "hbm_predicted_waveform", "transient_predicted_harmonic_1",

@@ -100,11 +100,12 @@ static int tables_of_found(const found_states *f, hc_status st, table *tables[2]
   int code = 0;
   table *t = table_of_rows(common);
   put_rows(common, f->found, 0, t);
-  bool free = false, torus = false, creeps = false;
+  bool free = false, torus = false, creeps = false, repeats = true;
   for (int i = 0; i < f->found->n; ++i) {
     const steady_row *row = &f->found->rows[i];
     free |= row->status == HC_OK && motion_mean_is_free(&row->result);
     creeps |= row->status == HC_CREEPS;
+    repeats &= row->result.window == 0;
     torus |= row->status == HC_APERIODIC && !isnan(row->result.second_frequency);
     int row_code = say_failure(common, row);
     if (row_code) code = row_code;
@@ -112,6 +113,7 @@ static int tables_of_found(const found_states *f, hc_status st, table *tables[2]
   if (!free) table_hide(t, "mean_free");
   if (!torus) table_hide(t, "second_frequency");
   if (!creeps) table_hide(t, "drift");
+  for (int i = 0; repeats && i < 3; ++i) table_hide(t, (const char *const[]){"window_low", "window_high", "window"}[i]);
   if (st != HC_OK) {
     table_note(t, "INCOMPLETE: %s", hc_status_text(st));
     code = cli_solver_failed(common, CLI_TRANSIENT, "time integration", st, 0);

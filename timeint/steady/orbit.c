@@ -105,10 +105,33 @@ hc_status orbit_report(timeint *ti, int k, timeint_method method, const shoot_re
   return st;
 }
 
+hc_status orbit_watch(timeint *ti)
+{
+  enum { PERIODS = 64 }; /* of a motion near a torus or in chaos some tenths of the range are missing after ten */
+  const int before = ti->periods;
+  hc_status st = HC_OK;
+  timeint_save(ti);
+  for (int k = 0; k < PERIODS && st == HC_OK; ++k) {
+    measure_begin(&ti->measure, &ti->scaled);
+    st = timeint_period(ti, true);
+    for (int i = 0; i < ti->base->n_responses && st == HC_OK; ++i) {
+      const response_measure *of = &ti->measure.response[i];
+      const double amplitude = motion_amplitude(of->max, of->min) * ti->length;
+      ti->window.low[i] = k ? fmin(ti->window.low[i], amplitude) : amplitude;
+      ti->window.high[i] = k ? fmax(ti->window.high[i], amplitude) : amplitude;
+    }
+  }
+  ti->window.periods = PERIODS;
+  ti->periods = before;
+  timeint_restore(ti);
+  return st;
+}
+
 hc_status orbit_report_none(timeint *ti, hc_status why, timeint_result *r)
 {
   const shoot_report none = {.distance = INFINITY, .attainable = INFINITY, .multiplier = NAN};
-  hc_status st = orbit_report(ti, 1, TIMEINT_BY_MARCHING, &none, r);
+  hc_status st = why == HC_APERIODIC ? orbit_watch(ti) : HC_OK;
+  if (st == HC_OK) st = orbit_report(ti, 1, TIMEINT_BY_MARCHING, &none, r);
   r->period_multiple = 0;
   return st == HC_OK ? why : st;
 }

@@ -147,7 +147,7 @@ hc_status timeint_begin(timeint *ti, double omega, const double *state)
   ti->omega = omega;
   ti->measured = false;
   ti->contraction = exp(-TWO_PI * ti->base->slowest / omega);
-  ti->periods = 0;
+  ti->periods = ti->window.periods = 0;
   memset(ti->noted, 0, sizeof ti->noted);
   ti->creeps = false;
   ti->steps0 = integrate_steps(ti->in);
@@ -256,6 +256,9 @@ void timeint_report(const timeint *ti, int i, timeint_result *r)
 {
   measure_report(&ti->measure, ti->model, i, ti->length, r);
   timeint_shift_result(ti, i, r);
+  r->window = ti->window.periods;
+  r->window_low = r->window > 0 ? fmin(ti->window.low[i], r->amplitude) : NAN;
+  r->window_high = r->window > 0 ? fmax(ti->window.high[i], r->amplitude) : NAN;
   r->drift = ti->creeps ? dot_product(ti->n_dof, ti->model->responses + (size_t)i * (size_t)ti->n_dof, ti->drift) : NAN;
 }
 

@@ -238,6 +238,7 @@ static void clear_result(timeint_result *r, double omega)
   r->amplitude = r->max = r->min = r->rms = r->mean = r->a1 = r->b1 = r->harmonic_1 = r->closure = r->attainable =
       r->contraction = NAN;
   r->multiplier = r->multiplier_re = r->multiplier_im = r->lyapunov = r->second_frequency = r->drift = NAN;
+  r->window_low = r->window_high = NAN;
   r->predicted = (motion_error){NAN, NAN, NAN};
   for (int i = 0; i < TIMEINT_WAVE; ++i) r->wave[i] = NAN;
 }

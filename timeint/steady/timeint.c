@@ -41,6 +41,8 @@ static hc_status timeint_make_memory(timeint *ti)
   ti->from_rest = workspace_doubles(w, (size_t)ti->n_dof);
   ti->amplitudes = workspace_doubles(w, 2 * (size_t)ti->base->n_responses);
   ti->drift = workspace_doubles(w, n);
+  ti->window.low = workspace_doubles(w, (size_t)ti->base->n_responses);
+  ti->window.high = workspace_doubles(w, (size_t)ti->base->n_responses);
   for (int k = 0; k < 3; ++k) ti->states[k] = workspace_doubles(w, n);
   ti->past = workspace_doubles(w, SETTLE_MAX_MULTIPLE * n);
   ti->scaled.contact = workspace_array(w, (size_t)ti->model->n_contacts, sizeof *ti->scaled.contact);

@@ -50,7 +50,11 @@ struct timeint {          /* from timeint_new, to timeint_free; not shared betwe
   long periods_before;      /* of integrators that have been replaced                                   */
   struct memory *confirmed; /* with it: orbits found lately (closed_form_start.c)                       */
   measure measure;
-  bool measured;           /* it is of the periods that led to y                                        */
+  bool measured;        /* it is of the periods that led to y                                        */
+  struct {              /* of a motion that does not repeat, each response's least and largest amplitude       */
+    int periods;        /* 0: it repeats                                                         */
+    double *low, *high; /* [responses] [length] */
+  } window;
   struct {                 /* the orbit measured last, of a large structure in closed form              */
     int k;                 /* its periods; 0: none                                                      */
     int switches, returns; /* what a result says of it: switches, period_multiple                       */
