@@ -8,7 +8,6 @@
 
 #include "compare/response.h"
 #include "compare/study/scene_solvers.h"
-#include "hbm/contact/aft.h"
 #include "hbm/contact/exact_force.h"
 #include "numerics/base/constants.h"
 #include "numerics/series.h"
@@ -138,7 +137,7 @@ typedef struct force_workspace {
   moving_contact *contacts;
   exact_force *fine;
   hbm_solver *hbm[N_SAMPLES]; /* of the sampled equations; NULL: N is too small for H */
-  aft *sampled[N_SAMPLES];
+  contact_forces *sampled[N_SAMPLES];
 } force_workspace;
 
 /* force[SHOWN_TIMES + 1] over a period, after one in which the sliders settle; returns its largest size. */
@@ -182,7 +181,7 @@ static json_t *sampled_answer(const force_workspace *w, int k, double omega, con
   if (hbm_solve(w->hbm[k], omega, X, &point) != HC_OK || hbm_measure(w->hbm[k], X, &m) != HC_OK) m.amplitude = NAN;
   json_t *answer = json_pack("{s:o, s:b}", "amplitude", json_finite(m.amplitude), "touches",
                              (int)(isfinite(m.amplitude) && m.contact.regime > CONTACT_LINEAR));
-  if (!F || aft_eval(w->sampled[k], at->X, missed, NULL, NULL) != HC_OK) return answer;
+  if (!F || contact_forces_eval(w->sampled[k], at->X, missed, false, &(contact_report){0}) != HC_OK) return answer;
   for (int i = 0; i < n; ++i) missed[i] -= F[i];
   for (int h = 0; h <= H; ++h) {
     folds[2 * h] = size_of(F, samples[k] - h);
@@ -231,7 +230,7 @@ static hc_status answer_curve(void *self, int task, const hc_monitor *monitor)
     if (samples[i] < 2 * H + 2) continue;
     with_samples.hbm.samples = samples[i];
     st = scene_hbm_solver(&with_samples, &w.hbm[i]);
-    if (st == HC_OK) st = scene_aft(sc, H, samples[i], &w.sampled[i]);
+    if (st == HC_OK) st = scene_sampled(sc, H, samples[i], &w.sampled[i]);
   }
   f->states = json_array();
   for (int i = 0; i < all->n_omega && st == HC_OK; ++i) {
@@ -243,7 +242,7 @@ static hc_status answer_curve(void *self, int task, const hc_monitor *monitor)
   }
   for (int i = 0; i < N_SAMPLES; ++i) {
     hbm_solver_free(w.hbm[i]);
-    aft_free(w.sampled[i]);
+    contact_forces_free(w.sampled[i]);
   }
   exact_force_free(w.fine);
   free(w.contacts);
