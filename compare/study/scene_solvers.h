@@ -2,7 +2,6 @@
  * scene's model, gives it to the solver, which copies it, and frees it. Errors are those of the solver's own _new. */
 #pragma once
 
-#include "hbm/contact/exact_force.h"
 #include "hbm/forces/contact_forces.h"
 #include "hbm/hbm.h"
 #include "model/casefile/scene.h"
@@ -21,5 +20,4 @@ typedef union scene_state {
 
 hc_status scene_hbm_solver(const scene *sc, hbm_solver **out);
 hc_status scene_timeint(const scene *sc, timeint **out);
-hc_status scene_sampled(const scene *sc, int n_harm, int n_time, contact_forces **out);
-hc_status scene_exact(const scene *sc, int n_harm, exact_force **out);
+hc_status scene_forces(const scene *sc, hbm_force force, int n_harm, int n_time, contact_forces **out);

@@ -1,14 +1,15 @@
-/* aft.c - see aft.h.
+/* aft.c - contact force harmonics from displacement harmonics by sampling (alternating frequency/time).
  *   X -> x(th_i), th_i = 2 pi i/N -> u_i, v_i -> two periods of the contact law, the first only settles w -> F_i -> F
- * The contacts are followed by slider.c: the slider after a separation starts from the interpolated instant of contact,
- * or (the paper's way) from the last separated sample. Jacobian, only when it is asked for: dF_i = k_i dx_i - kt
- * cu dw, k_i by one more FFT, dw constant over a stick interval (force_jacobian.h). With two coordinates the entries of
- * k_i that do not vanish are constant on an interval, and summed in closed form. Not here:
- * the dynamic stiffness (system.c). */
-#include "hbm/contact/aft.h"
-
+ * N >= 2H + 1, even or odd, else HC_BAD_INPUT. The contact is followed by slider.c: the slider after a separation
+ * starts from the interpolated instant of contact, or (the paper's way) from the last separated sample. Jacobian of the
+ * sampled F, aliasing included, only when it is asked for: dF_i = k_i dx_i - kt cu dw, k_i by one more FFT, dw constant
+ * over a stick interval (force_jacobian.h). With two coordinates the entries of k_i that do not vanish are constant on
+ * an interval, and summed in closed form. Evaluating allocates nothing: HC_NOT_FINITE if X is not finite;
+ * HC_NOT_CLOSED if the slider did not return to where it was a period before. Not here: the dynamic stiffness
+ * (system.c). */
 #include <string.h>
 
+#include "hbm/contact/contact_evaluator.h"
 #include "hbm/contact/fft_plan.h"
 #include "hbm/contact/force_jacobian.h"
 #include "hbm/contact/slider.h"

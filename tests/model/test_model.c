@@ -3,7 +3,6 @@
 
 #include <float.h>
 
-#include "hbm/contact/exact_force.h"
 #include "hbm/forces/contact_forces.h"
 #include "hbm/hbm.h"
 
@@ -62,15 +61,15 @@ static void forces_of_many_are_those_of_one(CHECK_STATE)
   double F[2][N_COEF], G[2][N_COEF], w[MANY], largest = 0;
   for (int i = 0; i < 2; ++i) {
     model *m = case_2_in_parts(i == 0 ? 1 : MANY);
-    CHECK_MADE(exact_force, e, exact_force_new_of_model(H, m, &e));
-    CHECK_FILLED(contact_report, report, exact_force_eval(e, X, F[i], NULL, &report));
-    exact_force_sliders(e, w);
+    const evaluator_settings how = {.n_harm = H, .n_time = 256, .slider = {.restart = HBM_RESTART_INTERPOLATED}};
+    CHECK_MADE(contact_forces, e, contact_forces_new(m, NULL, HBM_FORCE_EXACT, &how, &e));
+    CHECK_FILLED(contact_report, report, contact_forces_eval(e, X, F[i], false, &report));
+    contact_forces_sliders(e, w);
     for (int j = 1; j < m->n_contacts; ++j) assert_true(w[j] == w[0]);
     assert_int_equal(report.transitions, 2 * m->n_contacts);
-    const evaluator_settings how = {.n_harm = H, .n_time = 256, .slider = {.restart = HBM_RESTART_INTERPOLATED}};
     CHECK_MADE(contact_forces, a, contact_forces_new(m, NULL, HBM_FORCE_SAMPLED, &how, &a));
     assert_int_equal(contact_forces_eval(a, X, G[i], false, &report), HC_OK);
-    exact_force_free(e);
+    contact_forces_free(e);
     contact_forces_free(a);
     model_free(m);
   }

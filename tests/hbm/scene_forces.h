@@ -1,4 +1,4 @@
-/* sampled.h - the sampled contact forces of an oscillator with their Jacobian, in one call. */
+/* scene_forces.h - the contact forces of an oscillator with their Jacobian, in one call. */
 #pragma once
 
 #include <string.h>
@@ -6,8 +6,8 @@
 #include "compare/study/scene_solvers.h"
 
 /* F[2 n_harm + 1], and jac[2 n_harm + 1]^2 by columns; jac and report may be NULL. */
-static inline hc_status sampled_eval(contact_forces *f, int n_harm, const double *X, double *F, double *jac,
-                                     contact_report *report)
+static inline hc_status forces_eval(contact_forces *f, int n_harm, const double *X, double *F, double *jac,
+                                    contact_report *report)
 {
   const size_t n = (size_t)series_length(n_harm);
   contact_report local;
