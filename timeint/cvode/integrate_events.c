@@ -1,5 +1,5 @@
-/* integrate_events.c - see integrate_events.h: the equations that CVODE integrates in an interval between two changes
- * of contact state, the root functions that end it, changes of state, and a period.
+/* integrate_events.c - see integrate.h: the equations that CVODE integrates in an interval between two changes of
+ * contact state, the root functions that end it, changes of state, and a period.
  *
  * A contact has six root functions, so that a period allocates nothing: the guards of its state, which end it where
  * they fall through 0, and their rates, which end nothing. Without the rates a guard could fall and rise unseen within
@@ -8,8 +8,6 @@
  *
  * Guards that are already negative at the beginning of an interval, or fall in the same instant as another contact's,
  * are passed at once. The monodromy matrix is fundamental_matrix.h's. */
-#include "timeint/cvode/integrate_events.h"
-
 #include <float.h>
 #include <stdlib.h>
 #include <string.h>

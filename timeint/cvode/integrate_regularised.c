@@ -1,8 +1,6 @@
-/* integrate_regularised.c - see integrate_regularised.h. Everything is made in integrate_new_regularised; a period
- * allocates nothing. The columns of the monodromy matrix are CVODES' forward sensitivities to y(0), switched off in
- * periods without; a period with them takes other steps of the same tolerance: y is as good, but not the same bits. */
-#include "timeint/cvode/integrate_regularised.h"
-
+/* integrate_regularised.c - see integrate.h. Everything is made in integrate_new_regularised; a period allocates
+ * nothing. The columns of the monodromy matrix are CVODES' forward sensitivities to y(0), switched off in periods
+ * without; a period with them takes other steps of the same tolerance: y is as good, but not the same bits. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
