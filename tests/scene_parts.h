@@ -4,9 +4,7 @@
 
 #include "compare/study/scene_solvers.h"
 #include "tests/check.h"
-#include "timeint/closed_form/integrate_closed_form.h"
-#include "timeint/cvode/integrate_events.h"
-#include "timeint/cvode/integrate_regularised.h"
+#include "timeint/closed_form/interval_modes.h"
 #include "timeint/period/measure.h"
 
 static inline void scene_direction(const scene_contact *c, double *tangent, double *normal)

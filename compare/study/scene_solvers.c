@@ -19,12 +19,8 @@ hc_status scene_hbm_solver(const scene *sc, hbm_solver **out)
 
 hc_status scene_timeint(const scene *sc, timeint **out) { MADE_OF_MODEL(timeint_new(m, &sc->transient, out)); }
 
-hc_status scene_aft(const scene *sc, int n_harm, int n_time, aft **out)
+hc_status scene_forces(const scene *sc, hbm_force force, int n_harm, int n_time, contact_forces **out)
 {
-  MADE_OF_MODEL(aft_new_of_model(m, sc->hbm.restart, n_harm, n_time, out));
-}
-
-hc_status scene_exact(const scene *sc, int n_harm, exact_force **out)
-{
-  MADE_OF_MODEL(exact_force_new_of_model(n_harm, m, out));
+  const evaluator_settings how = {.n_harm = n_harm, .n_time = n_time, .slider = {.restart = sc->hbm.restart}};
+  MADE_OF_MODEL(contact_forces_new(m, NULL, force, &how, out));
 }

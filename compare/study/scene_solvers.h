@@ -2,8 +2,7 @@
  * scene's model, gives it to the solver, which copies it, and frees it. Errors are those of the solver's own _new. */
 #pragma once
 
-#include "hbm/contact/aft.h"
-#include "hbm/contact/exact_force.h"
+#include "hbm/forces/contact_forces.h"
 #include "hbm/hbm.h"
 #include "model/casefile/scene.h"
 #include "timeint/steady/steady.h"
@@ -21,5 +20,4 @@ typedef union scene_state {
 
 hc_status scene_hbm_solver(const scene *sc, hbm_solver **out);
 hc_status scene_timeint(const scene *sc, timeint **out);
-hc_status scene_aft(const scene *sc, int n_harm, int n_time, aft **out);
-hc_status scene_exact(const scene *sc, int n_harm, exact_force **out);
+hc_status scene_forces(const scene *sc, hbm_force force, int n_harm, int n_time, contact_forces **out);

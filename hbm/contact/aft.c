@@ -1,104 +1,81 @@
-/* aft.c - see aft.h.
+/* aft.c - contact force harmonics from displacement harmonics by sampling (alternating frequency/time).
  *   X -> x(th_i), th_i = 2 pi i/N -> u_i, v_i -> two periods of the contact law, the first only settles w -> F_i -> F
- * The contacts are followed by slider.c: the slider after a separation starts from the interpolated instant of contact,
- * or (the paper's way) from the last separated sample. Jacobian, only when it is asked for: dF_i = k_i dx_i - kt
- * cu dw, k_i by one more FFT, dw constant over a stick interval (force_jacobian.h). With two coordinates the entries of
- * k_i that do not vanish are constant on an interval, and summed in closed form. Not here:
- * the dynamic stiffness (system.c). */
-#include "hbm/contact/aft.h"
-
+ * N >= 2H + 1, even or odd, else HC_BAD_INPUT. The contact is followed by slider.c: the slider after a separation
+ * starts from the interpolated instant of contact, or (the paper's way) from the last separated sample. Jacobian of the
+ * sampled F, aliasing included, only when it is asked for: dF_i = k_i dx_i - kt cu dw, k_i by one more FFT, dw constant
+ * over a stick interval (force_jacobian.h). With two coordinates the entries of k_i that do not vanish are constant on
+ * an interval, and summed in closed form. Evaluating allocates nothing: HC_NOT_FINITE if X is not finite;
+ * HC_NOT_CLOSED if the slider did not return to where it was a period before. Not here: the dynamic stiffness
+ * (system.c). */
 #include <string.h>
 
+#include "hbm/contact/contact_evaluator.h"
 #include "hbm/contact/fft_plan.h"
 #include "hbm/contact/force_jacobian.h"
 #include "hbm/contact/slider.h"
 #include "numerics/base/workspace.h"
 
-struct aft {
-  int n_dof, n_contacts;
-  moving_contact *contacts; /* [n_contacts] */
-  int n_harm, n_time;
+typedef struct aft {
+  int n_dof, n_harm, n_time;
+  moving_contact contact;
   slider_rule slider;
-  double *x, *f, *k;        /* [n_time]     displacement [length], force, its stiffness along the orbit */
-  double *y;                /* [n_time]     of two coordinates the second */
-  period_samples of;        /* its sample:  force of one contact */
-  double complex *inv_step; /* [2H+1]       1/(exp(i h 2 pi/N) - 1), for sums over sample ranges */
-  double *symbol;           /* [4H+1]       series of k */
-  double *left, *right;     /* [2H+1]       one rank-1 term; right: [n_dof][2H+1] */
-  sampled_interval
-      *intervals;             /* [n_contacts][n_time] of the last evaluation, the first n_intervals[j] of each filled */
-  sampled_interval *settling; /* [n_time] */
-  int *n_intervals;           /* [n_contacts] */
-  workspace memory;           /* of all of these */
-};
+  double *x, *f, *k; /* [n_time]     displacement [length], force, its stiffness along the orbit */
+  double *y;         /* [n_time]     of two coordinates the second */
+  period_samples of;
+  double complex *inv_step;    /* [2H+1]       1/(exp(i h 2 pi/N) - 1), for sums over sample ranges */
+  double *symbol;              /* [4H+1]       series of k */
+  double *left, *right;        /* [2H+1]       one rank-1 term; right: [n_dof][2H+1] */
+  sampled_interval *intervals; /* [n_time]    of the last evaluation, the first n_intervals */
+  sampled_interval *settling;  /* [n_time] */
+  int n_intervals;
+  workspace memory; /* of all of these */
+} aft;
 
-/* n_dof = 1: all contacts are moved by one coordinate; 2: there is one, and the coordinates are its u and v. */
-static hc_status make_aft(const evaluator_settings *how, int n_dof, int n_contacts, const moving_contact *contacts,
-                          aft **out)
+static void aft_free(void *self)
 {
-  const int n_harm = how->n_harm, n_time = how->n_time;
-  *out = NULL;
-  if (n_harm < 1 || n_harm > HBM_MAX_HARMONICS || n_time < 2 * n_harm + 1) return HC_BAD_INPUT;
-  if (n_dof < 1 || n_dof > 2 || n_contacts < 0 || (n_dof == 2 && n_contacts != 1)) return HC_BAD_INPUT;
-  aft *a = calloc(1, sizeof *a);
-  if (!a) return HC_NO_MEMORY;
-  a->n_harm = n_harm;
-  a->n_time = n_time;
-  a->slider = how->slider;
-  a->n_dof = n_dof;
-  a->n_contacts = n_contacts;
-  a->contacts = workspace_array(&a->memory, (size_t)n_contacts + 1, sizeof *a->contacts);
-  hc_status st = a->contacts ? HC_OK : HC_NO_MEMORY;
-  if (st == HC_OK && n_contacts) memcpy(a->contacts, contacts, (size_t)n_contacts * sizeof *contacts);
-  if (st == HC_OK) {
-    const size_t n = (size_t)a->n_time, n_coef = (size_t)series_length(a->n_harm);
-    workspace *w = &a->memory;
-    double **const samples[] = {&a->x, &a->f, &a->k, &a->y};
-    for (size_t i = 0; i < sizeof samples / sizeof *samples; ++i) *samples[i] = workspace_doubles(w, n);
-    a->inv_step = workspace_array(w, 2 * (size_t)a->n_harm + 1, sizeof *a->inv_step);
-    a->symbol = workspace_doubles(w, (size_t)force_jacobian_symbol_length(a->n_harm));
-    a->left = workspace_doubles(w, n_coef);
-    a->right = workspace_doubles(w, (size_t)a->n_dof * n_coef);
-    a->intervals = workspace_array(w, (size_t)a->n_contacts * n + 1, sizeof *a->intervals); /* few are used */
-    a->settling = workspace_array(w, n, sizeof *a->settling);
-    a->n_intervals = workspace_array(w, (size_t)a->n_contacts + 1, sizeof *a->n_intervals);
-    st = period_samples_make(a->n_harm, a->n_time, w, &a->of);
-    for (int h = 1; h <= 2 * a->n_harm && st == HC_OK; ++h)
-      a->inv_step[h] = 1 / (a->of.root[h % a->n_time] - 1); /* 2 H < N */
-  }
-  if (st == HC_OK) {
-    *out = a;
-    return HC_OK;
-  }
-  aft_free(a);
-  return st;
-}
-
-hc_status aft_new_of_model(const model *m, hbm_restart restart, int n_harm, int n_time, aft **out)
-{
-  const evaluator_settings how = {.n_harm = n_harm, .n_time = n_time, .slider = {.restart = restart}};
-  moving_contact *contacts;
-  *out = NULL;
-  hc_status st = moving_contacts_of_model(m, &contacts);
-  if (st == HC_OK) st = make_aft(&how, 1, m->n_contacts, contacts, out);
-  free(contacts);
-  return st;
-}
-
-void aft_free(aft *a)
-{
+  aft *a = self;
   if (!a) return;
   period_samples_clear(&a->of);
   workspace_free(&a->memory);
   free(a);
 }
 
+/* n_dof = 2: the coordinates are u and v. */
+static hc_status aft_make(const contact_coordinates *c, const evaluator_settings *how, void **self)
+{
+  const int n_harm = how->n_harm, n_time = how->n_time;
+  *self = NULL;
+  if (n_harm < 1 || n_harm > HBM_MAX_HARMONICS || n_time < 2 * n_harm + 1) return HC_BAD_INPUT;
+  if (c->n_dof < 1 || c->n_dof > 2) return HC_BAD_INPUT;
+  aft *a = calloc(1, sizeof *a);
+  if (!a) return HC_NO_MEMORY;
+  a->n_harm = n_harm;
+  a->n_time = n_time;
+  a->slider = how->slider;
+  a->n_dof = c->n_dof;
+  a->contact = c->moved;
+  const size_t n = (size_t)n_time, n_coef = (size_t)series_length(n_harm);
+  workspace *w = &a->memory;
+  double **const samples[] = {&a->x, &a->f, &a->k, &a->y};
+  for (size_t i = 0; i < sizeof samples / sizeof *samples; ++i) *samples[i] = workspace_doubles(w, n);
+  a->inv_step = workspace_array(w, 2 * (size_t)n_harm + 1, sizeof *a->inv_step);
+  a->symbol = workspace_doubles(w, (size_t)force_jacobian_symbol_length(n_harm));
+  a->left = workspace_doubles(w, n_coef);
+  a->right = workspace_doubles(w, (size_t)a->n_dof * n_coef);
+  a->intervals = workspace_array(w, n, sizeof *a->intervals); /* few are used */
+  a->settling = workspace_array(w, n, sizeof *a->settling);
+  const hc_status st = period_samples_make(n_harm, n_time, w, &a->of);
+  for (int h = 1; h <= 2 * n_harm && st == HC_OK; ++h) a->inv_step[h] = 1 / (a->of.root[h % n_time] - 1); /* 2 H < N */
+  if (st == HC_OK) *self = a;
+  else aft_free(a);
+  return st;
+}
+
 /* ---- the force's Jacobian -------------------------------------------------------------------- */
 
-static int aft_end_of_interval(const aft *a, int j, int m)
+static int aft_end_of_interval(const aft *a, int m)
 {
-  const sampled_interval *s = a->intervals + (size_t)j * (size_t)a->n_time;
-  return m + 1 < a->n_intervals[j] ? s[m + 1].first : a->n_time;
+  return m + 1 < a->n_intervals ? a->intervals[m + 1].first : a->n_time;
 }
 
 /* to[] += series, n_harm harmonics, of `weight` over the samples first..end-1 and 0 elsewhere: geometric sums. */
@@ -118,8 +95,9 @@ static void aft_add_interval(const aft *a, int n_harm, double weight, int first,
 }
 
 /* kt dw over the samples first..end-1 of a stuck slider, taken from the rows of the first coordinate. */
-static void aft_subtract_stick(aft *a, const moving_contact *c, const slider_origin *o, int first, int end, double *jac)
+static void aft_subtract_stick(aft *a, const slider_origin *o, int first, int end, double *jac)
 {
+  const moving_contact *c = &a->contact;
   const int n_coef = series_length(a->n_harm), rows = a->n_dof * n_coef, next = o->i + 1 < a->n_time ? o->i + 1 : 0;
   const double along = a->n_dof > 1 ? 1 : c->cu[0];
   double *of_along = a->right, *of_across = a->right + (a->n_dof - 1) * n_coef;
@@ -153,9 +131,9 @@ static void add_block(aft *a, const double stiffness[4], double *block)
 {
   const sampled_interval *s = a->intervals;
   memset(a->symbol, 0, (size_t)force_jacobian_symbol_length(a->n_harm) * sizeof(double));
-  for (int m = 0; m < a->n_intervals[0]; ++m)
+  for (int m = 0; m < a->n_intervals; ++m)
     if (stiffness[s[m].state] != 0)
-      aft_add_interval(a, 2 * a->n_harm, stiffness[s[m].state], s[m].first, aft_end_of_interval(a, 0, m), a->symbol);
+      aft_add_interval(a, 2 * a->n_harm, stiffness[s[m].state], s[m].first, aft_end_of_interval(a, m), a->symbol);
   force_jacobian_add(a->n_harm, a->symbol, 2 * series_length(a->n_harm), block);
 }
 
@@ -166,29 +144,25 @@ static void aft_jacobian(void *self, double *jac)
   const size_t rows = (size_t)a->n_dof * (size_t)series_length(a->n_harm);
   memset(jac, 0, rows * rows * sizeof(double));
   if (a->n_dof > 1) {
-    const contact *law = &a->contacts[0].law;
+    const contact *law = &a->contact.law;
     const size_t n_coef = (size_t)series_length(a->n_harm), block = 2 * n_coef;
     const double friction = law->mu * law->kn;
     add_block(a, (double[4]){[CONTACT_STICK] = law->kt}, jac); /* dT/du */
     add_block(a, (double[4]){[CONTACT_SLIP_PLUS] = friction, [CONTACT_SLIP_MINUS] = -friction}, jac + block * n_coef);
     add_block(a, (double[4]){0, law->kn, law->kn, law->kn}, jac + block * n_coef + n_coef); /* d(N - N0)/dv */
   } else {
-    if (a->n_contacts == 0) memset(a->k, 0, (size_t)a->n_time * sizeof(double));
-    for (int j = 0; j < a->n_contacts; ++j)
-      for (int m = 0; m < a->n_intervals[j]; ++m) {
-        const sampled_interval *s = a->intervals + (size_t)j * (size_t)a->n_time + m;
-        const int end = aft_end_of_interval(a, j, m);
-        const double stiffness = stiffness_in(&a->contacts[j], s->state);
-        for (int i = s->first; i < end; ++i) a->k[i] = j ? a->k[i] + stiffness : stiffness;
-      }
+    for (int m = 0; m < a->n_intervals; ++m) {
+      const sampled_interval *s = &a->intervals[m];
+      const int end = aft_end_of_interval(a, m);
+      const double stiffness = stiffness_in(&a->contact, s->state);
+      for (int i = s->first; i < end; ++i) a->k[i] = stiffness;
+    }
     period_samples_series(&a->of, a->k, 2 * a->n_harm, a->symbol);
     force_jacobian_add(a->n_harm, a->symbol, series_length(a->n_harm), jac);
   }
-  for (int j = 0; j < a->n_contacts; ++j) {
-    const sampled_interval *s = a->intervals + (size_t)j * (size_t)a->n_time;
-    for (int m = 0; m < a->n_intervals[j]; ++m)
-      if (s[m].state == CONTACT_STICK)
-        aft_subtract_stick(a, &a->contacts[j], &s[m].origin, s[m].first, aft_end_of_interval(a, j, m), jac);
+  for (int m = 0; m < a->n_intervals; ++m) {
+    const sampled_interval *s = &a->intervals[m];
+    if (s->state == CONTACT_STICK) aft_subtract_stick(a, &s->origin, s->first, aft_end_of_interval(a, m), jac);
   }
 }
 
@@ -206,76 +180,46 @@ static contact_regime regime_of(int n, const sampled_interval *s)
   return slips ? CONTACT_SLIPS : CONTACT_STUCK;
 }
 
-hc_status aft_eval(aft *a, const double *X, double *F, double *jac, contact_report *report)
+/* NOLINTNEXTLINE(readability-non-const-parameter): the signature is contact_evaluator.h's */
+static hc_status aft_evaluate(void *self, const double *X, double *F, double *jac, contact_report *report)
 {
-  contact_report local;
+  aft *a = self;
+  const moving_contact *c = &a->contact;
   const int n_coef = series_length(a->n_harm);
-  if (!report) report = &local;
+  (void)jac; /* `jacobian` makes it */
   *report = (contact_report){.regime = CONTACT_LINEAR};
   double size = 0; /* bounds |x| */
   for (int i = 0; i < a->n_dof * n_coef; ++i) size += fabs(X[i]);
   if (!isfinite(size)) return HC_NOT_FINITE;
   period_samples_of(&a->of, X, a->x);
   if (a->n_dof > 1) period_samples_of(&a->of, X + n_coef, a->y);
-  if (a->n_contacts == 0) memset(a->f, 0, (size_t)a->n_time * sizeof(double));
-  hc_status st = HC_OK;
+  slider_motion motion = {a->x, a->x, c->cu[0], c->cv[0], c->cu[0], c->cv[0]};
+  if (a->n_dof > 1)
+    motion = (slider_motion){a->x, a->y, 1, 1, 1, 0}; /* the force on u, where v is another coordinate */
+  double *again = a->k;                               /* k is made afterwards, if at all */
+  const slider_report found =
+      slider_follow(&c->law, &a->slider, a->n_time, &motion, a->f, again, a->intervals, a->settling);
+  a->n_intervals = found.n_intervals;
+  report->regime = regime_of(found.n_intervals, a->intervals);
+  report->transitions = found.transitions;
+  report->free_sliders = report->regime == CONTACT_STUCK && moving_contact_has_slider(c, a->n_dof);
   /* One step of the law maps w to the nearest point of an interval, and so does a whole period: applied once more it
    * changes nothing, so the slider is periodic in the second. That it is not can only be rounding or a defect. */
-  for (int j = 0; j < a->n_contacts && st == HC_OK; ++j) {
-    const moving_contact *c = &a->contacts[j];
-    sampled_interval *s = a->intervals + (size_t)j * (size_t)a->n_time;
-    double *f = j == 0 ? a->f : a->of.sample, *again = a->k; /* k is made afterwards, if at all */
-    slider_motion motion = {a->x, a->x, c->cu[0], c->cv[0], c->cu[0], c->cv[0]};
-    if (a->n_dof > 1)
-      motion = (slider_motion){a->x, a->y, 1, 1, 1, 0}; /* the force on u, where v is another coordinate */
-    slider_report found = slider_follow(&c->law, &a->slider, a->n_time, &motion, f, again, s, a->settling);
-    a->n_intervals[j] = found.n_intervals;
-    for (int i = 0; i < a->n_time && j > 0; ++i) a->f[i] += a->of.sample[i];
-    contact_regime regime = regime_of(found.n_intervals, s);
-    if (regime > report->regime) report->regime = regime;
-    report->transitions += found.transitions;
-    report->free_sliders += regime == CONTACT_STUCK && moving_contact_has_slider(c, a->n_dof);
-    st = fabs(found.w - found.settled) <= 1e-12 * (fabs(found.settled) + size) ? HC_OK : HC_NOT_CLOSED;
-  }
-  if (st != HC_OK) return st;
+  if (!(fabs(found.w - found.settled) <= 1e-12 * (fabs(found.settled) + size))) return HC_NOT_CLOSED;
   period_samples_series(&a->of, a->f, a->n_harm, F);
-  if (a->n_dof > 1) { /* N - N0: its contact's T is in the first coordinate */
-    for (int i = 0; i < a->n_time; ++i) a->f[i] = contact_normal_change(&a->contacts->law, a->y[i]);
+  if (a->n_dof > 1) { /* N - N0: T is in the first coordinate */
+    for (int i = 0; i < a->n_time; ++i) a->f[i] = contact_normal_change(&c->law, a->y[i]);
     period_samples_series(&a->of, a->f, a->n_harm, F + n_coef);
   }
-  if (jac) aft_jacobian(a, jac);
   return HC_OK;
 }
 
-void aft_sliders(const aft *a, double *w)
-{
-  for (int j = 0; j < a->n_contacts; ++j) w[j] = a->intervals[(size_t)j * (size_t)a->n_time].w;
-}
-
-/* ---- as one of contact_evaluator.h -------------------------------------------------------------------- */
-
-static hc_status aft_make(const contact_coordinates *c, const evaluator_settings *how, void **self)
-{
-  aft *a;
-  const hc_status st = make_aft(how, c->n_dof, 1, &c->moved, &a);
-  *self = a;
-  return st;
-}
-
-/* NOLINTNEXTLINE(readability-non-const-parameter): the signature is contact_evaluator.h's */
-static hc_status aft_evaluate(void *self, const double *X, double *F, double *jac, contact_report *report)
-{
-  (void)jac; /* `jacobian` makes it */
-  return aft_eval(self, X, F, NULL, report);
-}
-
-static void aft_let_go(void *self) { aft_free(self); }
-static void aft_ask_sliders(const void *self, double *w) { aft_sliders(self, w); }
+static void aft_sliders(const void *self, double *w) { *w = ((const aft *)self)->intervals->w; }
 static void aft_start(void *self, const double *w) { ((aft *)self)->slider.start = *w; }
 
 const contact_evaluator aft_evaluator = {.make = aft_make,
-                                         .free = aft_let_go,
+                                         .free = aft_free,
                                          .evaluate = aft_evaluate,
                                          .jacobian = aft_jacobian,
-                                         .sliders = aft_ask_sliders,
+                                         .sliders = aft_sliders,
                                          .start = aft_start};

@@ -80,6 +80,9 @@ typedef struct hbm_plug_in {
   double _Complex (*damping)(int h, double omega, double _Complex *by_omega);
 } hbm_plug_in;
 
+/* Of one contact with one tangent, by sampling (aft.c). */
+extern const contact_evaluator aft_evaluator;
+
 /* A smooth law's two, without aliasing and sampled; and what it does along u, v [2 n_harm + 1], as contact_measures_of
  * (u_2 is not looked at), epsilon being of rates by angle. Each law has a file. */
 #define SMOOTH_EVALUATORS(code, name)                                                                                  \

@@ -70,16 +70,6 @@ void exact_force_free(exact_force *e)
   free(e);
 }
 
-hc_status exact_force_new_of_model(int n_harm, const model *m, exact_force **out)
-{
-  moving_contact *contacts;
-  *out = NULL;
-  hc_status st = moving_contacts_of_model(m, &contacts);
-  if (st == HC_OK) st = exact_force_new(n_harm, 1, m->n_contacts, contacts, out);
-  free(contacts);
-  return st;
-}
-
 /* Series of the function that is 1 on the interval and 0 elsewhere, 2H harmonics. */
 static void fill_indicator(exact_force *e, const contact_interval *p)
 {

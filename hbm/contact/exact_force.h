@@ -12,9 +12,6 @@ typedef struct exact_force exact_force;
 hc_status exact_force_new(int n_harm, int n_dof, int n_contacts, const moving_contact *contacts, exact_force **out);
 void exact_force_free(exact_force *e);
 
-/* The same for the contacts of an oscillator (copied), moved by its x. */
-hc_status exact_force_new_of_model(int n_harm, const model *m, exact_force **out);
-
 /* F[n_dof (2H+1)] [force]: for each coordinate d the harmonics of sum_j cu_jd T_j + cv_jd (N_j - N0_j), at X (same
  * layout) [length]. jac[row + ld col], ld = n_dof (2H+1): dF/dX, unless NULL. report may be NULL. HC_NOT_FINITE,
  * HC_CHATTER (more transitions than a motion of H harmonics should cause), HC_NOT_CLOSED. */

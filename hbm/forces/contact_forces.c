@@ -145,11 +145,12 @@ hc_status contact_forces_new(const model *m, const condensation *c, hbm_force fo
   if (!placed) return HC_NO_MEMORY;
   for (int j = 0; j < m->n_contacts; ++j) {
     placed[j] = placed_contact_of(m, j);
-    placed[j].tangent = condensation_tangent(c, j);
-    placed[j].normal = condensation_normal(c, j);
-    if (placed[j].planar) placed[j].tangent_2 = condensation_tangent(c, j + 1);
+    placed[j].tangent = c ? condensation_tangent(c, j) : m->contacts[j].tangent;
+    placed[j].normal = c ? condensation_normal(c, j) : m->contacts[j].normal;
+    if (placed[j].planar) placed[j].tangent_2 = c ? condensation_tangent(c, j + 1) : m->contacts[j + 1].tangent;
   }
-  const hc_status st = contact_forces_new_of(condensation_dim(c), m->n_contacts, placed, force, how, out);
+  const int dim = c ? condensation_dim(c) : m->n;
+  const hc_status st = contact_forces_new_of(dim, m->n_contacts, placed, force, how, out);
   free(placed);
   double w[2];
   for (int i = 0; st == HC_OK && i < (*out)->n_members; ++i) {

@@ -19,13 +19,13 @@ typedef struct contact_forces contact_forces;
 hc_status contact_forces_new_of(int dim, int n, const placed_contact *contacts, hbm_force force,
                                 const evaluator_settings *how, contact_forces **out);
 
-/* The contacts of m in the coordinates of c; their sliders begin where m says. */
+/* The contacts of m in the coordinates of c, NULL: in m's own; their sliders begin where m says. */
 hc_status contact_forces_new(const model *m, const condensation *c, hbm_force force, const evaluator_settings *how,
                              contact_forces **out);
 void contact_forces_free(contact_forces *f); /* NULL is allowed */
 
 /* F[dim (2H+1)] [force] at X [length]. derive: contact_forces_jacobian will be called for this X. Errors of the
- * evaluators: exact_force_eval, planar_force_eval, aft_eval, planar_aft_evaluator. */
+ * evaluators: exact_force_eval, planar_force_eval, aft_evaluator, planar_aft_evaluator. */
 hc_status contact_forces_eval(contact_forces *f, const double *X, double *F, bool derive, contact_report *report);
 
 /* dF/dX, [dim (2H+1)]^2 by columns, at the last evaluation, which derived and ended with HC_OK; valid until the next

@@ -3,7 +3,6 @@
 
 #include <stddef.h>
 
-#include "hbm/contact/aft.h"
 #include "hbm/contact/contact_measures.h"
 #include "hbm/contact/exact_force.h"
 #include "hbm/planar/planar_aft.h"

@@ -27,8 +27,8 @@ typedef struct given_motion {
 given_motion given_motion_of_contact(const model *of, int j, moving_contact *place);
 
 /* F[n_dof][2 n_harm + 1] [force] on each coordinate, for one contact T (T_1, T_2) and N - N0; by n_time samples a
- * period, or GIVEN_EXACT. HC_BAD_INPUT: too few samples; errors of exact_force_eval, planar_force_eval, aft_eval and
- * planar_aft_evaluator. */
+ * period, or GIVEN_EXACT. HC_BAD_INPUT: too few samples; errors of exact_force_eval, planar_force_eval, aft_evaluator
+ * and planar_aft_evaluator. */
 hc_status given_motion_force(const given_motion *m, hbm_restart restart, int n_time, double *F);
 
 /* True if its two tangents have a common limit and friction, and are evaluated together. */

@@ -1,5 +1,5 @@
 /* planar_aft.h - force harmonics of one contact with two tangents under the law of the circle (planar_slider.h), by
- * sampling: aft.h for motions in a plane. Coordinates are u_1, u_2 and, with n_dof = 3, v; with 2 the normal force is
+ * sampling: aft.c for motions in a plane. Coordinates are u_1, u_2 and, with n_dof = 3, v; with 2 the normal force is
  * constant. Forces are T_1, T_2 and N - N0 of both halves (model.h); the given law is that of one half.
  *
  * With the restarts `interpolated` and `sample` a slider that can rest all period is placed by planar_rest.h, from the

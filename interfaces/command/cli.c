@@ -769,6 +769,13 @@ int cli_write(const cli_common *common, int n, table *const *tables)
   return cli_write_rest(common, n, tables, &(table_begun){.several = n != 1});
 }
 
+int cli_write_all(const cli_common *common, int n, table *const *tables)
+{
+  const int code = cli_write(common, n, tables);
+  for (int i = 0; i < n; ++i) table_free(tables[i]);
+  return code;
+}
+
 int cli_write_rest(const cli_common *common, int n, table *const *tables, const table_begun *begun)
 {
   output *out = NULL;

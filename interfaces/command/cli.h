@@ -223,6 +223,8 @@ int cli_width(const cli_common *common);
 
 /* Write the tables to stdout or --output, whole or not at all, within cli_width unless --wide. 0 or the exit code. */
 int cli_write(const cli_common *common, int n, table *const *tables);
+/* The same, and frees them. */
+int cli_write_all(const cli_common *common, int n, table *const *tables);
 
 /* Rows as they are found, with --format csv or json on standard output: cli_shows_rows is true there. cli_show_rows
  * writes those of t that have not been written, at once, also into a pipe; cli_write_rest the rest of all tables, as

@@ -113,9 +113,7 @@ static int write_advice(const cli_common *common, const scene *sc, const advise_
   }
   put_notes(tables[0], sc, own, s);
   if (st != HC_OK) table_note(tables[0], "INCOMPLETE: %s", hc_status_text(st));
-  const int code = cli_write(common, 2, tables);
-  for (int i = 0; i < 2; ++i) table_free(tables[i]);
-  return code;
+  return cli_write_all(common, 2, tables);
 }
 
 static int run_advise(cli_common *common, void *given, scene *sc)

@@ -185,9 +185,7 @@ static int write_tables(const cli_common *common, const scene *sc, const bench *
     put_cheapest(tables[1], sc, b, &b->frequencies[i]);
     note_winners(tables[1], sc, b, &b->frequencies[i]);
   }
-  int code = cli_write(common, 2, tables);
-  for (int i = 0; i < 2; ++i) table_free(tables[i]);
-  return code;
+  return cli_write_all(common, 2, tables);
 }
 
 static int run_bench(cli_common *common, void *given, scene *sc)

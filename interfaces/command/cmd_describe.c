@@ -166,9 +166,7 @@ static int write_columns(const cli_common *common)
       TABLE_ROW(t, CELL(rows_name((rows_kind)kind)), CELL(of[i].name), CELL_IF(*of[i].unit, of[i].unit),
                 CELL(of[i].meaning));
   }
-  const int code = cli_write(common, 1, &t);
-  table_free(t);
-  return code;
+  return cli_write_all(common, 1, &t);
 }
 
 /* ---- the table of fields ---- */
@@ -198,9 +196,7 @@ static int write_fields(const cli_common *common)
                 CELL_IF(ranged && isfinite(f->low), f->low), CELL_IF(ranged && isfinite(f->high), f->high),
                 CELL(f->fallback), CELL(f->fallback || field_rival(f, 0) ? "no" : "yes"), CELL(f->meaning));
     }
-  int code = cli_write(common, 1, &t);
-  table_free(t);
-  return code;
+  return cli_write_all(common, 1, &t);
 }
 
 /* ---- one case ---- */

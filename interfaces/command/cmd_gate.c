@@ -223,11 +223,10 @@ static int read_and_judge(gate_call *call)
   if (!code) code = judge_cases(call);
   if (code) return code;
   table *t = checks_table(call); /* each is written even if the other one fails */
-  const int shown = cli_write(call->common, 1, &t);
+  const int shown = cli_write_all(call->common, 1, &t);
   if (call->junit) st = output_finish(call->junit, gate_write_junit(n, call->cases, output_stream(call->junit)));
   if (st != HC_OK) reported = cli_file_failed(call->common, junit, st);
   call->junit = NULL;
-  table_free(t);
   if (wrong) return EXIT_BAD_CASE;
   if ((code = gate_exit_code(n, call->cases)) != 0) return code;
   return shown ? shown : reported;

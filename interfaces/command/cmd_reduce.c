@@ -158,8 +158,7 @@ static int reduce(cli_common *common, const reduce_options *o, const scene *sc, 
     if (o->modes < 0 && o->up_to == 0 && !(stated.error <= o->error))
       table_note(t, "the error asked for, %g, is not reached", o->error);
     common->output = NULL;
-    code = cli_write(common, 1, &t);
-    table_free(t);
+    code = cli_write_all(common, 1, &t);
   }
   craig_bampton_free(cb);
   free(kept);

@@ -191,9 +191,7 @@ static int run_names(cli_common *common, void *own, scene *sc)
               CELL(scene_contact_is_composed(c) ? 1 : scene_model_contact(sc, j + 1) - scene_model_contact(sc, j)));
   }
   TABLE_ROW(tables[2], CELL((const char *)sc->title), CELL((int)sc->in_cycles));
-  const int written = cli_write(common, 3, tables);
-  for (int i = 0; i < 3; ++i) table_free(tables[i]);
-  return written;
+  return cli_write_all(common, 3, tables);
 }
 
 static const cli_command names = {.name = "names", .arguments = "CASE", .starts_itself = true, .run = run_names};

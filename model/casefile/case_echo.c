@@ -15,7 +15,7 @@ static int choice_at(const void *at)
   return i;
 }
 
-static void write_text(const char *text, FILE *to)
+void case_write_text(const char *text, FILE *to)
 {
   putc('"', to);
   for (; *text; ++text) {
@@ -63,7 +63,7 @@ void field_write(const field *f, const void *base, FILE *to)
     return;
   case FIELD_FLAG: fputs(*(const bool *)at ? "true" : "false", to); return;
   case FIELD_CHOICE: fputs(f->choices[choice_at(at)], to); return;
-  case FIELD_TEXT: write_text(at, to); return;
+  case FIELD_TEXT: case_write_text(at, to); return;
   case FIELD_PAIR: write_list(at, 2, 1, f->scale, to); return;
   case FIELD_PART: return;
   default: write_list(((const number_list *)at)->v, ((const number_list *)at)->n, 1, f->scale, to); return;
@@ -88,7 +88,7 @@ static void write_matrix(const char *name, const double *v, int n, FILE *to)
 
 static void write_dof(const scene_structure *s, int dof, FILE *to)
 {
-  if (s->names) write_text(s->names[dof], to);
+  if (s->names) case_write_text(s->names[dof], to);
   else fprintf(to, "%d", dof + 1);
 }
 
@@ -114,24 +114,26 @@ static const structure_node *node_of(const scene_structure *s, bool by_node, con
   return by_node ? structure_node_of(s, dof) : NULL;
 }
 
-static void write_damping(const scene_structure *s, FILE *to)
+void case_write_damping(const scene_structure *s, int n, FILE *to)
 {
-  switch (s->how) {
-  case STRUCTURE_DAMPING_MATRIX: write_matrix("damping", s->damping.v, s->n, to); return;
-  case STRUCTURE_DAMPING_RAYLEIGH:
-    fputs("  damping: {rayleigh: ", to);
+  if (s->how == STRUCTURE_DAMPING_RAYLEIGH) {
+    fputs("{rayleigh: ", to);
     write_list(s->rayleigh, 2, 1, 0, to);
-    break;
-  case STRUCTURE_DAMPING_MODAL:
-    fputs("  damping: {modal: ", to);
-    write_number(s->modal, to);
-    break;
-  case STRUCTURE_DAMPING_MODES:
-    fputs("  damping: {modal: ", to);
-    write_list(s->ratios, s->n, 1, 0, to);
-    break;
+  } else {
+    fputs("{modal: ", to);
+    if (s->how == STRUCTURE_DAMPING_MODAL) write_number(s->modal, to);
+    else write_list(s->ratios, n, 1, 0, to);
   }
-  fputs("}\n", to);
+  putc('}', to);
+}
+
+void case_write_reduction(double error, double at, FILE *to)
+{
+  fputs("reduction: {error: ", to);
+  write_number(error, to);
+  fputs(", at: ", to);
+  write_number(at, to);
+  putc('}', to);
 }
 
 static void write_structure(const scene_structure *s, FILE *to)
@@ -139,10 +141,15 @@ static void write_structure(const scene_structure *s, FILE *to)
   fputs("structure:\n", to);
   write_matrix("mass", s->mass.v, s->n, to);
   write_matrix("stiffness", s->stiffness.v, s->n, to);
-  write_damping(s, to);
+  if (s->how == STRUCTURE_DAMPING_MATRIX) write_matrix("damping", s->damping.v, s->n, to);
+  else {
+    fputs("  damping: ", to);
+    case_write_damping(s, s->n, to);
+    putc('\n', to);
+  }
   for (int i = 0; s->names && i < s->n; ++i) {
     fputs(i == 0 ? "  names: [" : ", ", to);
-    write_text(s->names[i], to);
+    case_write_text(s->names[i], to);
   }
   if (s->names) fputs("]\n", to);
   for (int i = 0; i < s->n_nodes; ++i) {
@@ -152,11 +159,9 @@ static void write_structure(const scene_structure *s, FILE *to)
   }
   if (s->n_nodes > 0) fputs("]\n", to);
   if (s->reduction_error > 0) {
-    fputs("  reduction: {error: ", to);
-    write_number(s->reduction_error, to);
-    fputs(", at: ", to);
-    write_number(s->reduction_at, to);
-    fputs("}\n", to);
+    fputs("  ", to);
+    case_write_reduction(s->reduction_error, s->reduction_at, to);
+    putc('\n', to);
   }
   for (int i = 0; i < s->n_responses; ++i) {
     fputs(i == 0 ? "response: [" : ", ", to);

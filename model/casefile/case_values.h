@@ -25,6 +25,12 @@ bool case_contact_field_counts(const scene_structure *s, const structure_contact
 /* A table's points as a case file has them: [[-1, -5], [0, 0], [1, 20]]. */
 void case_write_points(const scene_contact *c, FILE *to);
 
+/* Likewise a text, in quotes; damping that is no matrix, with n modal ratios, {rayleigh: [0.1, 1e-5]} or {modal: 0.01};
+ * and what a reduced structure states: reduction: {error: 1e-4, at: 12}. */
+void case_write_text(const char *text, FILE *to);
+void case_write_damping(const scene_structure *s, int n, FILE *to);
+void case_write_reduction(double error, double at, FILE *to);
+
 /* Where the value of f is from, of contact j if it is one of a contact's: its own place, or else, where it stores what
  * a rival gave (compare.omega, compare.frequency), the rival's. line = 0: the default. */
 case_place case_field_place(const case_places *places, const field *f, int j);

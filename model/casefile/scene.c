@@ -29,15 +29,9 @@ double scene_max_stiffness(const scene *sc)
 
 bool scene_adrift(const scene *sc)
 {
-  if (!scene_is_oscillator(sc) || *sc->structure->stiffness.v > 0) return false;
-  bool held = false;
-  for (int j = 0; j < scene_contact_count(sc); ++j) {
-    const scene_contact *given = scene_contact_at(sc, j);
-    const moving_contact c = scene_moving_contact(given);
-    held |= scene_contact_stiffness(given, true) > 0 || scene_contact_restores(given, true);
-    held |= (c.law.gap > 0 || c.law.load > 0) && moving_contact_stuck_stiffness(&c) > 0;
-  }
-  return !held;
+  double x;
+  bool is_free = false;
+  return scene_is_oscillator(sc) && structure_free_motion(sc->structure, true, &x, &is_free) == HC_OK && is_free;
 }
 
 /* load: M r. In coordinates that move with the base, by A cos(omega t) or a cos(omega t) of acceleration, its motion is

@@ -56,8 +56,8 @@ static inline int scene_model_contact(const scene *sc, int j) { return structure
 
 static inline bool scene_base_moves(const scene *sc) { return sc->base.amplitude != 0 || sc->base.acceleration != 0; }
 
-/* Is an oscillator's mean undetermined: stiffness 0, no contact under a preload, and no polynomial that restores? Of
- * other structures the reader sees to it. */
+/* Is an oscillator's mean undetermined: does nothing hold it at rest (structure_free_motion)? Of other structures the
+ * reader sees to it. */
 bool scene_adrift(const scene *sc);
 #define SCENE_ADRIFT                                                                                                   \
   "the mean is undetermined while nothing touches: oscillator.stiffness is 0 and no contact under a preload gives it " \

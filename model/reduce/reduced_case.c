@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "model/casefile/case_values.h"
 #include "model/casefile/matrices/text_file.h"
 #include "model/casefile/mesh/mesh_file.h"
 #include "numerics/base/path.h"
@@ -79,11 +80,6 @@ static hc_status closed(FILE *to)
   return fclose(to) != 0 || failed ? HC_IO : HC_OK;
 }
 
-static void put_number(const char *before, double value, FILE *to)
-{
-  fprintf(to, "%s%s", before, number_write(value, (char[NUMBER_TEXT]){0}));
-}
-
 static hc_status write_matrix(const char *folder, const char *name, int n, const double *A)
 {
   FILE *to;
@@ -99,9 +95,7 @@ static hc_status write_matrix(const char *folder, const char *name, int n, const
     for (i = symmetric ? j : 0; i < n; ++i) {
       const double value = A[(size_t)i + (size_t)n * (size_t)j];
       if (value == 0) continue;
-      fprintf(to, "%d %d ", i + 1, j + 1);
-      put_number("", value, to);
-      putc('\n', to);
+      fprintf(to, "%d %d %s\n", i + 1, j + 1, number_write(value, (char[NUMBER_TEXT]){0}));
     }
   return closed(to);
 }
@@ -138,54 +132,24 @@ static hc_status copy_file(const char *path, const char *folder, const char *nam
 
 /* ---- the case ---- */
 
-/* A name as YAML has it, whatever is in it. */
-static void put_name(const char *name, FILE *to)
-{
-  putc('\'', to);
-  for (; *name; ++name) {
-    if (*name == '\'') putc('\'', to);
-    putc(*name, to);
-  }
-  putc('\'', to);
-}
-
-static void put_damping(const scene_structure *s, int n, FILE *to)
-{
-  switch (s->how) {
-  case STRUCTURE_DAMPING_MATRIX: fputs("damping.mtx", to); return;
-  case STRUCTURE_DAMPING_RAYLEIGH:
-    put_number("{rayleigh: [", s->rayleigh[0], to);
-    put_number(", ", s->rayleigh[1], to);
-    fputs("]}", to);
-    return;
-  case STRUCTURE_DAMPING_MODAL:
-    put_number("{modal: ", s->modal, to);
-    putc('}', to);
-    return;
-  case STRUCTURE_DAMPING_MODES:
-    for (int k = 0; k < n; ++k) put_number(k == 0 ? "{modal: [" : ", ", s->ratios[k], to);
-    fputs("]}", to);
-    return;
-  }
-}
-
 /* The structure in place of the large one. */
 static void put_structure(const scene *sc, const craig_bampton *cb, int modes, const receptance_error *stated, FILE *to)
 {
   const scene_structure *s = sc->structure;
   fputs("{mass: mass.mtx, stiffness: stiffness.mtx, damping: ", to);
-  put_damping(s, cb->n_kept + modes, to);
+  if (s->how == STRUCTURE_DAMPING_MATRIX) fputs("damping.mtx", to);
+  else case_write_damping(s, cb->n_kept + modes, to);
   for (int k = 0; k < cb->n_kept && s->names; ++k) {
     fputs(k == 0 ? ", names: [" : ", ", to);
-    put_name(s->names[cb->kept[k]], to);
+    case_write_text(s->names[cb->kept[k]], to);
   }
-  for (int k = 0; k < modes && s->names; ++k) fprintf(to, ", 'inner mode %d'", k + 1);
+  for (int k = 0; k < modes && s->names; ++k) fprintf(to, ", \"inner mode %d\"", k + 1);
   if (s->names) putc(']', to);
   if (s->n_nodes > 0) fputs(", nodes: nodes.csv", to);
   if (s->mesh) fputs(", mesh: mesh.inp", to);
-  put_number(", reduction: {error: ", stated->error, to);
-  put_number(", at: ", scene_frequency(sc, stated->omega), to);
-  fputs("}}", to);
+  fputs(", ", to);
+  case_write_reduction(stated->error, scene_frequency(sc, stated->omega), to);
+  putc('}', to);
 }
 
 /* The name that mention i's file has in the folder: its own, or with its number where another one has that. */
@@ -242,7 +206,7 @@ static hc_status write_case(const char *folder, const char *name, case_source *s
     fwrite(source->text + at, 1, from - at, to);
     at = byte_of(source, m->to, from, &now);
     if (m->file) {
-      put_name(copy_name(source, i, copy), to);
+      case_write_text(copy_name(source, i, copy), to);
       st = copy_file(m->file, folder, copy);
     } else fprintf(to, "%d", kept_number(cb, m->dof) + 1);
   }

@@ -2,7 +2,6 @@
  * coordinates, those that graze, and how far the sampled contact force may be from the exact one. */
 #pragma once
 
-#include "hbm/contact/aft.h"
 #include "hbm/contact/exact_force.h"
 #include "tests/hbm/scenes.h"
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "compare/verify/equations/mistakes.h"
-#include "hbm/contact/aft.h"
 #include "hbm/contact/exact_force.h"
 #include "hbm/planar/planar_aft.h"
 #include "hbm/planar/planar_force.h"

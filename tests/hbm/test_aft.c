@@ -6,6 +6,7 @@
  * s^{m+1} J_m B_{m+1}(t) / ((m+1)! 2 pi), where |B_2| <= 1/6, |B_3| <= 0.0482, |B_4| <= 1/30, |B_5| <= 0.0245. With
  * g = f cos h th or f sin h th, f continuous and made of constants and A cos th: |jump of f^(j)| <= J of A's size
  * for j >= 1, hence |J_m| <= J ((1 + h)^m - h^m), and a tail falling like (1 + h) s/(2 pi). */
+#include "tests/hbm/scene_forces.h"
 #include "tests/hbm/slow_aft.h"
 
 static slow_aft slow; /* too large for a stack */
@@ -38,11 +39,11 @@ typedef struct aft_result {
 static hc_status eval_once(const scene *sc, int n_harm, int n_time, const double *X, double *F, double *jac,
                            aft_result *out)
 {
-  aft *a;
-  hc_status st = scene_aft(sc, n_harm, n_time, &a);
-  if (st == HC_OK) st = aft_eval(a, X, F, jac, out ? &out->report : NULL);
-  if (st == HC_OK && out) aft_sliders(a, out->w);
-  aft_free(a);
+  contact_forces *a;
+  hc_status st = scene_forces(sc, HBM_FORCE_SAMPLED, n_harm, n_time, &a);
+  if (st == HC_OK) st = forces_eval(a, n_harm, X, F, jac, out ? &out->report : NULL);
+  if (st == HC_OK && out) contact_forces_sliders(a, out->w);
+  contact_forces_free(a);
   return st;
 }
 
@@ -62,16 +63,16 @@ static double case_2_error(int restart, int n_time)
   scene sc = scene_named("c2", 1, true, n_time);
   sc.hbm.restart = restart;
   double worst = 0;
-  CHECK_MADE(aft, a, scene_aft(&sc, 1, n_time, &a));
+  CHECK_MADE(contact_forces, a, scene_forces(&sc, HBM_FORCE_SAMPLED, 1, n_time, &a));
   for (int k = 0; k < 64 * 32; ++k) {
     double X[3] = {-1, 10 + k % 32 / 320.0, 0}, Y[3], F[3], G[3], shift = k / 32 * 2 * PI / n_time / 64;
     double exact = unilateral(550, X[0] + sc.structure->contacts[0].given.law.gap / sqrt(0.5), X[1]);
     shift_motion(1, X, shift, Y);
-    assert_int_equal(aft_eval(a, Y, F, NULL, NULL), HC_OK);
+    assert_int_equal(forces_eval(a, 1, Y, F, NULL, NULL), HC_OK);
     shift_motion(1, F, -shift, G);
     worst = larger(worst, hypot(G[1] - exact, G[2]) / X[1]);
   }
-  aft_free(a);
+  contact_forces_free(a);
   return worst;
 }
 
@@ -127,9 +128,9 @@ static void agrees_with_the_slow_way(CHECK_STATE)
       for (int p = 0; p < 2 * H + 1; ++p)
         CHECK_NEAR(F[p], slowF[p], tolerance, "H=%d N=%d trial %d, row %d", H, N, trial, p);
       for (int j = 0; j < sc.structure->n_contacts; ++j) {
-        const contact *c =
-            &sc.structure->contacts[j].given.law; /* w = u - T/kt: stiffness of F over kt; kt = 0 leaves w free */
-        if (c->kt > 0)
+        /* w = u - T/kt: stiffness of F over kt. kt = 0 leaves w free, and a contact without friction has none. */
+        const contact *c = &sc.structure->contacts[j].given.law;
+        if (c->kt > 0 && contact_has_friction(c))
           CHECK_NEAR(got.w[j], slow.w[j], tolerance / c->kt + tolerance, "w, H=%d N=%d trial %d", H, N, trial);
       }
       ++regimes[got.report.regime];
@@ -233,24 +234,24 @@ static void linear_motions(CHECK_STATE)
 static void bad_input(CHECK_STATE)
 {
   scene sc = one_contact(2, 3, 0.3, -0.1, 45);
-  aft *a = (aft *)&sc;
-  assert_int_equal(scene_aft(&sc, 0, 16, &a), HC_BAD_INPUT);
+  contact_forces *a = (contact_forces *)&sc;
+  assert_int_equal(scene_forces(&sc, HBM_FORCE_SAMPLED, 0, 16, &a), HC_BAD_INPUT);
   assert_null(a);
-  assert_int_equal(scene_aft(&sc, HBM_MAX_HARMONICS + 1, 4096, &a), HC_BAD_INPUT);
-  assert_int_equal(scene_aft(&sc, 8, 16, &a), HC_BAD_INPUT); /* 2H + 1 = 17 are needed */
+  assert_int_equal(scene_forces(&sc, HBM_FORCE_SAMPLED, HBM_MAX_HARMONICS + 1, 4096, &a), HC_BAD_INPUT);
+  assert_int_equal(scene_forces(&sc, HBM_FORCE_SAMPLED, 8, 16, &a), HC_BAD_INPUT); /* 2H + 1 = 17 are needed */
   assert_null(a);
-  aft_free(NULL);
+  contact_forces_free(NULL);
   static const double bad[] = {NAN, INFINITY, -INFINITY};
-  assert_int_equal(scene_aft(&sc, 2, 16, &a), HC_OK);
+  assert_int_equal(scene_forces(&sc, HBM_FORCE_SAMPLED, 2, 16, &a), HC_OK);
   for (int i = 0; i < 3; ++i)
     for (int at = 0; at < 5; ++at) {
       double X[5] = {0.1, 0.2, 0.3, 0.4, 0.5}, F[5], jac[25];
       X[at] = bad[i];
-      assert_int_equal(aft_eval(a, X, F, jac, NULL), HC_NOT_FINITE);
+      assert_int_equal(forces_eval(a, 2, X, F, jac, NULL), HC_NOT_FINITE);
       X[at] = 1;
-      assert_int_equal(aft_eval(a, X, F, jac, NULL), HC_OK); /* and it works on */
+      assert_int_equal(forces_eval(a, 2, X, F, jac, NULL), HC_OK); /* and it works on */
     }
-  aft_free(a);
+  contact_forces_free(a);
 }
 
 CHECK_TESTS("hbm.aft", 120, restarts_of_the_slider, agrees_with_the_slow_way, the_slider_closes_in_one_pass,

@@ -1,5 +1,6 @@
 /* test_aft_jacobian.c - the Jacobian of the sampled contact force against differences, and what time shifts do to
  * both. */
+#include "tests/hbm/scene_forces.h"
 #include "tests/hbm/slow_aft.h"
 
 enum { MAX_H = 50, MAX_COEF = 2 * MAX_H + 1 };
@@ -33,9 +34,9 @@ static void jacobian_equals_central_differences(CHECK_STATE)
       int H = sizes[i].H, N = sizes[i].N, n = 2 * H + 1;
       scene sc = random_contacts(&seed, 1 + trial % 3);
       sc.hbm.restart = trial / 2 % 2 ? HBM_RESTART_SAMPLE : HBM_RESTART_INTERPOLATED;
-      CHECK_MADE(aft, a, scene_aft(&sc, H, N, &a));
+      CHECK_MADE(contact_forces, a, scene_forces(&sc, HBM_FORCE_SAMPLED, H, N, &a));
       random_motion(&seed, H, 1, 1 + trial % 3, X);
-      CHECK_FILLED(contact_report, report, aft_eval(a, X, F, jac, &report));
+      CHECK_FILLED(contact_report, report, forces_eval(a, H, X, F, jac, &report));
       uint64_t pattern = pattern_at(&sc, H, N, X, unused);
       double noise = slow_tolerance(&sc, H, N, X), stiffness = 0;
       for (int j = 0; j < sc.structure->n_contacts; ++j) stiffness += slow_stiffness(&sc.structure->contacts[j].given);
@@ -52,8 +53,8 @@ static void jacobian_equals_central_differences(CHECK_STATE)
           continue;
         }
         ++checked;
-        assert_int_equal(aft_eval(a, plus, F_plus, NULL, NULL), HC_OK);
-        assert_int_equal(aft_eval(a, minus, F_minus, NULL, NULL), HC_OK);
+        assert_int_equal(forces_eval(a, H, plus, F_plus, NULL, NULL), HC_OK);
+        assert_int_equal(forces_eval(a, H, minus, F_minus, NULL, NULL), HC_OK);
         for (int p = 0; p < n; ++p) {
           double product = 0;
           for (int q = 0; q < n; ++q) product += jac[p + n * q] * d[q];
@@ -63,7 +64,7 @@ static void jacobian_equals_central_differences(CHECK_STATE)
         }
       }
       ++regimes[report.regime];
-      aft_free(a);
+      contact_forces_free(a);
     }
   print_message("%d directions checked, %d skipped for a changed state\n", checked, skipped);
   assert_true(skipped < checked / 20);
@@ -94,10 +95,10 @@ static void whole_steps_only_rotate(CHECK_STATE)
       for (int j = 0; j < sc.structure->n_contacts; ++j) stiffness += slow_stiffness(&sc.structure->contacts[j].given);
       random_motion(&seed, H, 1, 1, X);
       shift_motion(H, X, shift, Y);
-      CHECK_MADE(aft, a, scene_aft(&sc, H, N, &a));
-      CHECK_FILLED(contact_report, here, aft_eval(a, X, F, jac, &here));
-      CHECK_FILLED(contact_report, there, aft_eval(a, Y, G, shifted_jac, &there));
-      aft_free(a);
+      CHECK_MADE(contact_forces, a, scene_forces(&sc, HBM_FORCE_SAMPLED, H, N, &a));
+      CHECK_FILLED(contact_report, here, forces_eval(a, H, X, F, jac, &here));
+      CHECK_FILLED(contact_report, there, forces_eval(a, H, Y, G, shifted_jac, &there));
+      contact_forces_free(a);
       slow_force(&slow, &sc, H, N, X, row);
       if (slow.never_slips)
         continue; /* w, and so the mean of T, is what the settling period left, which began at th

@@ -47,17 +47,18 @@ WRAP(void, fftw_destroy_plan, (fftw_plan plan))
   __real_fftw_destroy_plan(plan);
 }
 
-/* Two plans made and freed by a handle of aft.h, two by hand. */
+/* Two plans made and freed by a contact of aft.c, two by hand. */
 static void one_lock_guards_the_planner(CHECK_STATE)
 {
-  const scene no_contact = scene_oscillator(1, 0, 1, 0);
+  scene sc = scene_oscillator(1, 0, 1, 0);
   fftw_complex spectrum[3];
   double samples[4];
+  scene_add_contact(&sc, (scene_contact){{.kt = 1, .kn = 1, .mu = 0.3}, 45});
   calls = unguarded = 0;
-  CHECK_MADE(aft, a, scene_aft(&no_contact, 1, 4, &a));
+  CHECK_MADE(contact_forces, a, scene_forces(&sc, HBM_FORCE_SAMPLED, 1, 4, &a));
   CHECK_FILLED(fftw_plan, there, fft_plan_to_samples(4, spectrum, samples, &there));
   CHECK_FILLED(fftw_plan, back, fft_plan_to_spectrum(4, samples, spectrum, &back));
-  aft_free(a);
+  contact_forces_free(a);
   fft_plan_free(there);
   fft_plan_free(back);
   fft_plan_free(NULL);

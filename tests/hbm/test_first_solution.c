@@ -5,6 +5,7 @@
 
 #include "hbm/solver/hbm_solver_impl.h"
 #include "tests/case_scene.h"
+#include "tests/hbm/scene_forces.h"
 #include "tests/hbm/traced.h"
 
 typedef struct refused_scene {
@@ -74,9 +75,9 @@ static void check_solution(const refused_scene *r, const double *X, const char *
 {
   const scene sc = scene_of(r);
   double F[MOST_COEF], size = r->force, worst = 0;
-  CHECK_MADE(exact_force, e, scene_exact(&sc, r->harmonics, &e));
-  assert_int_equal(exact_force_eval(e, X, F, NULL, NULL), HC_OK);
-  exact_force_free(e);
+  CHECK_MADE(contact_forces, e, scene_forces(&sc, HBM_FORCE_EXACT, r->harmonics, 0, &e));
+  assert_int_equal(forces_eval(e, r->harmonics, X, F, NULL, NULL), HC_OK);
+  contact_forces_free(e);
   if (r->keep_mean) worst = fabs(r->stiffness * X[0] + F[0]);
   else assert_true(X[0] == 0);
   size += fabs(r->stiffness * X[0]) + fabs(F[0]);

@@ -4,9 +4,11 @@
 #include <nvector/nvector_serial.h>
 
 #include "compare/study/scene_solvers.h"
+#include "hbm/contact/exact_force.h"
 #include "hbm/planar/planar_force.h"
 #include "numerics/sundials_compat.h"
 #include "tests/counted.h"
+#include "tests/hbm/scene_forces.h"
 #include "tests/hbm/scenes.h"
 
 /* The counter must see what libraries do, or the tests below would pass for nothing. */
@@ -29,7 +31,7 @@ static void the_counter_sees_libraries(CHECK_STATE)
 }
 
 /* For sizes made of small primes. FFTW's own transforms of others (101, 1001 = 7 11 13, 1021 with Debian's FFTW 3.3)
- * take work space at each call, once to four times a transform: aft.h's promise does not hold for those. */
+ * take work space at each call, once to four times a transform: what aft.c promises does not hold for those. */
 static void force_allocates_nothing(CHECK_STATE)
 {
   static const int sizes[] = {64, 100, 1000, 4096};
@@ -39,16 +41,16 @@ static void force_allocates_nothing(CHECK_STATE)
   uint64_t seed = 11;
   for (int i = 0; i < 4; ++i) {
     scene sc = scene_named("c2", H, true, sizes[i]);
-    CHECK_MADE(aft, a, scene_aft(&sc, H, sizes[i], &a));
+    CHECK_MADE(contact_forces, a, scene_forces(&sc, HBM_FORCE_SAMPLED, H, sizes[i], &a));
     random_motion(&seed, H, 10, 2, X);
-    assert_int_equal(aft_eval(a, X, F, jac, &report), HC_OK);
+    assert_int_equal(forces_eval(a, H, X, F, jac, &report), HC_OK);
     long before = allocations;
     for (int k = 0; k < 20; ++k) {
       random_motion(&seed, H, 10, 2, X);
-      assert_int_equal(aft_eval(a, X, F, k % 2 ? jac : NULL, &report), HC_OK);
+      assert_int_equal(forces_eval(a, H, X, F, k % 2 ? jac : NULL, &report), HC_OK);
     }
     long after = allocations; /* cmocka may allocate */
-    aft_free(a);
+    contact_forces_free(a);
     if (after != before) fail_msg("N = %d: %ld allocations in 20 evaluations", sizes[i], after - before);
   }
 }

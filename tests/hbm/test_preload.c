@@ -3,6 +3,7 @@
  * kn gap = 8e8, a motion of 1e-10: in contact all the time and stuck, the force is (kt cos^2 + kn sin^2) x, with
  * nothing left of the preload. As a difference N - N0 it would carry 8e8 units of 1e-16, five orders more than the
  * force itself. Found by `stress`. */
+#include "tests/hbm/scene_forces.h"
 #include "tests/hbm/scenes.h"
 #include "tests/scene_parts.h"
 
@@ -29,9 +30,9 @@ static void exact_force_of_a_small_motion(CHECK_STATE)
 {
   scene sc = preloaded();
   double F[N_COEF];
-  CHECK_MADE(exact_force, e, scene_exact(&sc, H, &e));
-  assert_int_equal(exact_force_eval(e, X, F, NULL, NULL), HC_OK);
-  exact_force_free(e);
+  CHECK_MADE(contact_forces, e, scene_forces(&sc, HBM_FORCE_EXACT, H, 0, &e));
+  assert_int_equal(forces_eval(e, H, X, F, NULL, NULL), HC_OK);
+  contact_forces_free(e);
   check(F, 4 * N_COEF, "exact");
 }
 
@@ -39,9 +40,9 @@ static void sampled_force_of_a_small_motion(CHECK_STATE)
 {
   scene sc = preloaded();
   double F[N_COEF];
-  CHECK_MADE(aft, a, scene_aft(&sc, H, 64, &a));
-  assert_int_equal(aft_eval(a, X, F, NULL, NULL), HC_OK);
-  aft_free(a);
+  CHECK_MADE(contact_forces, a, scene_forces(&sc, HBM_FORCE_SAMPLED, H, 64, &a));
+  assert_int_equal(forces_eval(a, H, X, F, NULL, NULL), HC_OK);
+  contact_forces_free(a);
   check(F, 64, "sampled");
 }
 
@@ -53,16 +54,16 @@ static void an_opening_takes_the_preload_away(CHECK_STATE)
   scene sc = preloaded();
   const double large[N_COEF] = {0, 20, 0, 1, 0, 0, 0};
   double F[N_COEF], G[N_COEF];
-  CHECK_MADE(exact_force, e, scene_exact(&sc, H, &e));
-  CHECK_FILLED(contact_report, report, exact_force_eval(e, large, F, NULL, &report));
+  CHECK_MADE(contact_forces, e, scene_forces(&sc, HBM_FORCE_EXACT, H, 0, &e));
+  CHECK_FILLED(contact_report, report, forces_eval(e, H, large, F, NULL, &report));
   assert_int_equal(report.regime, CONTACT_SEPARATES);
-  CHECK_MADE(aft, a, scene_aft(&sc, H, N, &a));
-  assert_int_equal(aft_eval(a, large, G, NULL, NULL), HC_OK);
+  CHECK_MADE(contact_forces, a, scene_forces(&sc, HBM_FORCE_SAMPLED, H, N, &a));
+  assert_int_equal(forces_eval(a, H, large, G, NULL, NULL), HC_OK);
   const double d = 2 * PI / N, rate = 1e8 * 22; /* at most kn |x'|; some ten transitions and intervals, each counted
                                                     once */
   for (int i = 0; i < N_COEF; ++i) CHECK_NEAR(F[i], G[i], 10 * rate * d * d / 8, "row %d", i);
-  exact_force_free(e);
-  aft_free(a);
+  contact_forces_free(e);
+  contact_forces_free(a);
 }
 
 CHECK_TESTS("hbm.preload", 30, exact_force_of_a_small_motion, sampled_force_of_a_small_motion,

@@ -1,16 +1,17 @@
 /* test_trace.c - how a trace goes and how it may end: turning points that are real, folds, limits, interruptions,
  * nonsense. */
+#include "tests/hbm/scene_forces.h"
 #include "tests/hbm/traced.h"
 
 /* Sign of det dR/dX of the fixed form at X, omega, by elimination with pivots; Z as in system.h, dF from the
  * contacts. */
-static int sign_of_determinant(const scene *sc, aft *a, const double *X, double omega)
+static int sign_of_determinant(const scene *sc, contact_forces *a, const double *X, double omega)
 {
   enum { MAX = 21 };
   static double F[MAX], J[MAX * MAX];
   int H = sc->hbm.harmonics, n = 2 * H + 1, sign = 1;
   assert_true(n <= MAX);
-  assert_int_equal(aft_eval(a, X, F, J, NULL), HC_OK);
+  assert_int_equal(forces_eval(a, H, X, F, J, NULL), HC_OK);
   J[0] += *sc->structure->stiffness.v;
   for (int h = 1; h <= H; ++h) {
     int i = 2 * h - 1;
@@ -54,7 +55,7 @@ static void turning_points_are_real(CHECK_STATE)
       scene sc = scene_named(runs[i].name, runs[i].H, runs[i].keep_mean, runs[i].N);
       traced t = trace(&sc, down ? sc.omega_to : sc.omega_from, down ? sc.omega_from : sc.omega_to, runs[i].name);
       const hbm_curve *c = &t.curve;
-      CHECK_MADE(aft, a, scene_aft(&sc, runs[i].H, runs[i].N, &a));
+      CHECK_MADE(contact_forces, a, scene_forces(&sc, HBM_FORCE_SAMPLED, runs[i].H, runs[i].N, &a));
       int first = 0, bad = 0;
       for (int k = 0; k < c->n; ++k) {
         int sign = sign_of_determinant(&sc, a, c->X + (size_t)k * c->n_coef, c->points[k].omega) *
@@ -67,7 +68,7 @@ static void turning_points_are_real(CHECK_STATE)
                     runs[i].name, runs[i].H, runs[i].keep_mean, runs[i].N, down ? "down" : "up", bad, c->n,
                     c->turning_points);
       wrong += bad;
-      aft_free(a);
+      contact_forces_free(a);
       free_traced(&t);
     }
   assert_int_equal(wrong, 0);

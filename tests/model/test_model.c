@@ -3,8 +3,7 @@
 
 #include <float.h>
 
-#include "hbm/contact/aft.h"
-#include "hbm/contact/exact_force.h"
+#include "hbm/forces/contact_forces.h"
 #include "hbm/hbm.h"
 
 enum { H = 5, N_COEF = 2 * H + 1, MANY = 40 };
@@ -62,15 +61,16 @@ static void forces_of_many_are_those_of_one(CHECK_STATE)
   double F[2][N_COEF], G[2][N_COEF], w[MANY], largest = 0;
   for (int i = 0; i < 2; ++i) {
     model *m = case_2_in_parts(i == 0 ? 1 : MANY);
-    CHECK_MADE(exact_force, e, exact_force_new_of_model(H, m, &e));
-    CHECK_FILLED(contact_report, report, exact_force_eval(e, X, F[i], NULL, &report));
-    exact_force_sliders(e, w);
+    const evaluator_settings how = {.n_harm = H, .n_time = 256, .slider = {.restart = HBM_RESTART_INTERPOLATED}};
+    CHECK_MADE(contact_forces, e, contact_forces_new(m, NULL, HBM_FORCE_EXACT, &how, &e));
+    CHECK_FILLED(contact_report, report, contact_forces_eval(e, X, F[i], false, &report));
+    contact_forces_sliders(e, w);
     for (int j = 1; j < m->n_contacts; ++j) assert_true(w[j] == w[0]);
     assert_int_equal(report.transitions, 2 * m->n_contacts);
-    CHECK_MADE(aft, a, aft_new_of_model(m, HBM_RESTART_INTERPOLATED, H, 256, &a));
-    assert_int_equal(aft_eval(a, X, G[i], NULL, NULL), HC_OK);
-    exact_force_free(e);
-    aft_free(a);
+    CHECK_MADE(contact_forces, a, contact_forces_new(m, NULL, HBM_FORCE_SAMPLED, &how, &a));
+    assert_int_equal(contact_forces_eval(a, X, G[i], false, &report), HC_OK);
+    contact_forces_free(e);
+    contact_forces_free(a);
     model_free(m);
   }
   for (int p = 0; p < N_COEF; ++p) largest = fmax(largest, fabs(F[0][p]));

@@ -4,9 +4,9 @@
 
 #include "tests/closed_form.h"
 #include "tests/hbm/random_structures.h"
-#include "timeint/closed_form/integrate_closed_form.h"
-#include "timeint/cvode/integrate_events.h"
+#include "timeint/closed_form/interval_modes.h"
 #include "timeint/cvode/structure_newton.h"
+#include "timeint/period/integrate.h"
 
 enum { MOST = 100 /* states */, MOST_CONTACTS = 12 };
 

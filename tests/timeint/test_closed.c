@@ -1,4 +1,4 @@
-/* test_closed.c - the exact law in closed form (integrate_closed_form.h): against the oracle, against CVODE's
+/* test_closed.c - the exact law in closed form (integrate_closed_form.c): against the oracle, against CVODE's
  * event-driven periods, its monodromy matrix against differences, the table of reference, what must not break it. */
 
 #include "numerics/random.h"

@@ -1,6 +1,4 @@
-/* integrate_closed_form.c - see integrate_closed_form.h. Proof: tests/timeint/test_structure.c. */
-#include "timeint/closed_form/integrate_closed_form.h"
-
+/* integrate_closed_form.c - see integrate.h. Proof: tests/timeint/test_structure.c. */
 #include <stdlib.h>
 #include <string.h>
 

@@ -7,8 +7,33 @@
 #include "numerics/sundials_compat.h"
 #include "numerics/vectors.h"
 
-/* CVODE's linear solver calls the owner's: the matrix has no entries; the owner's CVLsLinSysFn fills and factors its
- * own equations. */
+enum {
+  MAX_STEPS = 1000000, /* from one start to the next: a thousand times those of a difficult period */
+  SINGULAR = 1         /* return value of linear_system that makes CVODE try a shorter step */
+};
+
+static int rhs(sunrealtype theta, N_Vector y, N_Vector dy, void *self)
+{
+  cvode_integrator *in = self;
+  in->interrupted = in->interrupted || !integrate_goes_on(&in->base);
+  if (in->interrupted) return -1;
+  if (in->equations->rate(in, theta, NV_DATA_S(y), NV_DATA_S(dy))) return 0;
+  in->not_finite = true;
+  return -1;
+}
+
+/* CVODE's Newton matrix, which has no entries: the owner fills, factors and solves its own equations. CVODE's rule for
+ * when to renew the Jacobian stays as it is: renewing it in every step was measured 30 % slower, since CVODE then
+ * forgets the rate of convergence and takes a second Newton iteration to learn it. */
+static int linear_system(sunrealtype theta, N_Vector y, N_Vector dy, SUNMatrix matrix, sunbooleantype keep,
+                         sunbooleantype *renewed, sunrealtype gamma, void *self, N_Vector t1, N_Vector t2, N_Vector t3)
+{
+  (void)theta, (void)dy, (void)matrix, (void)t1, (void)t2, (void)t3;
+  cvode_integrator *in = self;
+  *renewed = !keep;
+  if (!keep) in->equations->linearise(in, NV_DATA_S(y));
+  return in->equations->factor(in, gamma) ? 0 : SINGULAR;
+}
 
 static SUNMatrix_ID kind_of_matrix(SUNMatrix a)
 {
@@ -34,9 +59,9 @@ static int setup(SUNLinearSolver ls, SUNMatrix a)
 static int solve(SUNLinearSolver ls, SUNMatrix a, N_Vector x, N_Vector b, sunrealtype tolerance)
 {
   (void)a, (void)tolerance;
-  const cvode_integrator *in = ls->content;
+  cvode_integrator *in = ls->content;
   if (x != b) memcpy(NV_DATA_S(x), NV_DATA_S(b), (size_t)NV_LENGTH_S(b) * sizeof(double));
-  in->solve(in->equations, NV_DATA_S(x));
+  in->equations->solve(in, NV_DATA_S(x));
   return 0;
 }
 
@@ -60,8 +85,9 @@ hc_status integrate_cvode_tolerance(integrator *base, double tolerance)
 /* [1] Largest state within a period, in units of length, about its size at the beginning; beyond: HC_UNBOUNDED. */
 static const double most_growth = 1e9;
 
-/* Fails beyond most_growth: a motion that is unbounded in finite time takes steps without end. */
-int integrate_weights(N_Vector y, N_Vector weight, void *self)
+/* CVODE's weights at y: the error of state i in a step is compared with tolerance (1 + |y_i|) size_i. Fails beyond
+ * most_growth: a motion that is unbounded in finite time takes steps without end. */
+static int weights(N_Vector y, N_Vector weight, void *self)
 {
   const cvode_integrator *in = self;
   const double *size = in->m->size;
@@ -90,19 +116,17 @@ bool integrate_no_fourier(const integrator *in, int r, double out[3])
   return false;
 }
 
-int integrate_first_flag(const int *flags, size_t n)
+hc_status integrate_set_up(const int *flags, size_t n)
 {
   for (size_t i = 0; i < n; ++i)
-    if (flags[i] != CV_SUCCESS) return flags[i];
-  return CV_SUCCESS;
+    if (flags[i] != CV_SUCCESS) return HC_NO_MEMORY;
+  return HC_OK;
 }
 
-hc_status integrate_make_parts(cvode_integrator *in, int n, int method, void *equations,
-                               void (*solve_by)(void *equations, double *r))
+hc_status integrate_make_parts(cvode_integrator *in, int n, int method, const cvode_equations *equations)
 {
   if (!(in->tolerance > 0)) return HC_BAD_INPUT;
   in->equations = equations;
-  in->solve = solve_by;
   if (hc_sundials_context(&in->ctx)) return HC_NO_MEMORY;
   in->y = vectors_new(n, in->ctx);
   in->dky = vectors_new(n, in->ctx);
@@ -110,7 +134,19 @@ hc_status integrate_make_parts(cvode_integrator *in, int n, int method, void *eq
   if (!in->y || !in->dky || !in->jac) return HC_NO_MEMORY;
   in->ls = hc_own_solver(in->ctx, in, setup, solve);
   in->cv = CVodeCreate(method, in->ctx);
-  return in->ls && in->cv && hc_room_for(0) ? HC_OK : HC_NO_MEMORY; /* hc_room_for: for CVodeInit, which comes next */
+  if (!in->ls || !in->cv || !hc_room_for(0)) return HC_NO_MEMORY; /* hc_room_for: for CVodeInit */
+  N_VConst(0.0, in->y);
+  if (CVodeInit(in->cv, rhs, 0.0, in->y) != CV_SUCCESS) return HC_NO_MEMORY; /* first: the other calls need it */
+  const int flags[] = {
+      HC_CVODE_QUIET(in->cv),
+      CVodeWFtolerances(in->cv, weights),
+      CVodeSetUserData(in->cv, in),
+      CVodeSetLinearSolver(in->cv, in->ls, in->jac),
+      CVodeSetLinSysFn(in->cv, linear_system),
+      CVodeSetMaxNumSteps(in->cv, MAX_STEPS),
+      CVodeSetMaxHnilWarns(in->cv, -1),
+  };
+  return integrate_set_up(flags, sizeof flags / sizeof *flags);
 }
 
 void integrate_free_parts(cvode_integrator *in)
@@ -122,12 +158,6 @@ void integrate_free_parts(cvode_integrator *in)
   if (in->y) N_VDestroy(in->y);
   if (in->ctx) SUNContext_Free(&in->ctx);
   workspace_free(&in->memory);
-}
-
-bool integrate_cvode_goes_on(cvode_integrator *in)
-{
-  in->interrupted = in->interrupted || !integrate_goes_on(&in->base);
-  return !in->interrupted;
 }
 
 hc_status integrate_translate(cvode_integrator *in, int flag)

@@ -1,5 +1,5 @@
-/* integrate_events.c - see integrate_events.h: the equations that CVODE integrates in an interval between two changes
- * of contact state, the root functions that end it, changes of state, and a period.
+/* integrate_events.c - see integrate.h: the equations that CVODE integrates in an interval between two changes of
+ * contact state, the root functions that end it, changes of state, and a period.
  *
  * A contact has six root functions, so that a period allocates nothing: the guards of its state, which end it where
  * they fall through 0, and their rates, which end nothing. Without the rates a guard could fall and rise unseen within
@@ -8,8 +8,6 @@
  *
  * Guards that are already negative at the beginning of an interval, or fall in the same instant as another contact's,
  * are passed at once. The monodromy matrix is fundamental_matrix.h's. */
-#include "timeint/cvode/integrate_events.h"
-
 #include <float.h>
 #include <stdlib.h>
 #include <string.h>
@@ -29,7 +27,6 @@ static const double stiff = 60; /* largest decay rate over lowest frequency abov
 
 enum {
   ROOTS = 2 * TRACK_GUARDS,
-  MAX_STEPS = 1000000,   /* between transitions */
   MAX_STANDSTILLS = 1000 /* returns of CVODE in succession that do not advance theta */
 };
 
@@ -96,30 +93,28 @@ static void events_rate(const events *in, double theta, const double *y, double 
   memcpy(dy, y + n, (size_t)n * sizeof *dy);
 }
 
-static int events_rhs(sunrealtype theta, N_Vector y, N_Vector dy, void *self)
+static bool rate(cvode_integrator *base, double theta, const double *y, double *dy)
 {
-  events *in = self;
+  const events *in = (const events *)base;
   double sum = 0;
-  if (!integrate_cvode_goes_on(&in->base)) return -1;
-  events_rate(in, theta, NV_DATA_S(y), NV_DATA_S(dy));
-  for (int i = 0; i < in->n_equations; ++i) sum += NV_Ith_S(dy, i);
-  if (isfinite(sum)) return 0;
-  in->base.not_finite = true;
-  return -1;
+  events_rate(in, theta, y, dy);
+  for (int i = 0; i < in->n_equations; ++i) sum += dy[i];
+  return isfinite(sum);
 }
 
-/* CVODE's Newton matrix. */
-static int linear_system(sunrealtype theta, N_Vector y, N_Vector dy, SUNMatrix matrix, sunbooleantype keep,
-                         sunbooleantype *renewed, sunrealtype gamma, void *self, N_Vector t1, N_Vector t2, N_Vector t3)
+static void linearise(cvode_integrator *base, const double *y)
 {
-  (void)theta, (void)dy, (void)matrix, (void)t1, (void)t2, (void)t3;
-  events *in = self;
-  *renewed = !keep;
-  if (!keep) events_newton_linearise(&in->newton, in->base.m, NV_DATA_S(y));
-  return events_newton_factor(&in->newton, in->base.m, gamma) ? 0 : INTEGRATE_SINGULAR;
+  events_newton_linearise(&((events *)base)->newton, base->m, y);
 }
 
-static void solve(void *newton, double *r) { events_newton_solve(newton, r); }
+static bool factor(cvode_integrator *base, double gamma)
+{
+  return events_newton_factor(&((events *)base)->newton, base->m, gamma);
+}
+
+static void solve(cvode_integrator *base, double *r) { events_newton_solve(&((events *)base)->newton, r); }
+
+static const cvode_equations equations = {rate, linearise, factor, solve};
 
 /* ---- guards ------------------------------------------------------------------------------------------- */
 
@@ -466,30 +461,19 @@ static const integrator_class class = {.period = period,
                                        .tolerance = integrate_cvode_tolerance,
                                        .free = release};
 
-/* Only memory can fail here, whatever the flag (CVodeSetLinearSolver's CVLS_MEM_FAIL has the number of
- * CV_CONV_FAILURE). */
-static hc_status make_cvode(events *in)
+static hc_status make_roots(events *in)
 {
-  N_VConst(0.0, in->base.y);
-  int flag = CVodeInit(in->base.cv, events_rhs, 0.0, in->base.y); /* first: the other calls need it */
-  if (flag == CV_SUCCESS && in->n_contacts > 0) flag = CVodeRootInit(in->base.cv, ROOTS * in->n_contacts, events_roots);
-  if (flag != CV_SUCCESS) return HC_NO_MEMORY;
-  for (int i = 0; i < ROOTS * in->n_contacts; ++i) in->info[i] = i % ROOTS < TRACK_GUARDS ? -1 : 0; /* guards fall */
+  const int n = ROOTS * in->n_contacts;
+  if (n > 0 && CVodeRootInit(in->base.cv, n, events_roots) != CV_SUCCESS) return HC_NO_MEMORY;
+  for (int i = 0; i < n; ++i) in->info[i] = i % ROOTS < TRACK_GUARDS ? -1 : 0; /* guards fall */
   const int flags[] = {
-      HC_CVODE_QUIET(in->base.cv),
-      CVodeWFtolerances(in->base.cv, integrate_weights),
-      CVodeSetUserData(in->base.cv, in),
-      CVodeSetLinearSolver(in->base.cv, in->base.ls, in->base.jac),
-      CVodeSetLinSysFn(in->base.cv, linear_system),
-      in->n_contacts > 0 ? CVodeSetRootDirection(in->base.cv, in->info) : CV_SUCCESS,
+      n > 0 ? CVodeSetRootDirection(in->base.cv, in->info) : CV_SUCCESS,
       CVodeSetEtaFixedStepBounds(in->base.cv, 0.9, 1.2), /* from 0, 1.5: a third fewer steps, and a tenth of the
                                                             error (c2 at omega 9) */
       CVodeSetNoInactiveRootWarn(in->base.cv),
       CVodeSetMaxStep(in->base.cv, INTEGRATE_LONGEST_STEP),
-      CVodeSetMaxNumSteps(in->base.cv, MAX_STEPS),
-      CVodeSetMaxHnilWarns(in->base.cv, -1),
   };
-  return integrate_first_flag(flags, sizeof flags / sizeof *flags) == CV_SUCCESS ? HC_OK : HC_NO_MEMORY;
+  return integrate_set_up(flags, sizeof flags / sizeof *flags);
 }
 
 hc_status integrate_new_events(const modal_base *base, double tolerance, integrator **out)
@@ -520,8 +504,8 @@ hc_status integrate_new_events(const modal_base *base, double tolerance, integra
   hc_status st = interval_modes_new(base, INTERVAL_MODES_STIFF, &in->modes);
   if (st == HC_OK) st = fundamental_matrix_make(&in->variations, base, in->modes, w);
   if (st == HC_OK) st = events_newton_make(&in->newton, base, in->track, in->law, in->own_of, w);
-  if (st == HC_OK) st = integrate_make_parts(&in->base, in->n_equations, bdf ? CV_BDF : CV_ADAMS, &in->newton, solve);
-  if (st == HC_OK) st = make_cvode(in);
+  if (st == HC_OK) st = integrate_make_parts(&in->base, in->n_equations, bdf ? CV_BDF : CV_ADAMS, &equations);
+  if (st == HC_OK) st = make_roots(in);
   if (st == HC_OK) {
     *out = &in->base.base;
     return HC_OK;

@@ -1,8 +1,6 @@
-/* integrate_regularised.c - see integrate_regularised.h. Everything is made in integrate_new_regularised; a period
- * allocates nothing. The columns of the monodromy matrix are CVODES' forward sensitivities to y(0), switched off in
- * periods without; a period with them takes other steps of the same tolerance: y is as good, but not the same bits. */
-#include "timeint/cvode/integrate_regularised.h"
-
+/* integrate_regularised.c - see integrate.h. Everything is made in integrate_new_regularised; a period allocates
+ * nothing. The columns of the monodromy matrix are CVODES' forward sensitivities to y(0), switched off in periods
+ * without; a period with them takes other steps of the same tolerance: y is as good, but not the same bits. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -20,7 +18,6 @@ static const double variation_tolerance = 1e-6; /* relative and absolute toleran
                                                    1 */
 
 enum {
-  MAX_STEPS = 1000000,  /* per period: a thousand times those of a difficult one */
   MAX_ERROR_FAILS = 20, /* per step: at a corner the step is sometimes 1e4 times too long */
   MAX_NEWTON_FAILS = 30
 };
@@ -34,27 +31,24 @@ typedef struct regularised { /* from integrate_new_regularised, to integrate_fre
   double *s_tolerance;        /* [n] absolute tolerance of each s_j; copied by CVODES */
 } regularised;
 
-static int rhs(sunrealtype theta, N_Vector y, N_Vector dy, void *self)
+static bool rate(cvode_integrator *base, double theta, const double *y, double *dy)
 {
-  regularised *in = self;
-  if (!integrate_cvode_goes_on(&in->base)) return -1;
-  if (structure_newton_rate(&in->newton, in->base.m, theta, NV_DATA_S(y), NV_DATA_S(dy), NULL)) return 0;
-  in->base.not_finite = true;
-  return -1;
+  return structure_newton_rate(&((regularised *)base)->newton, base->m, theta, y, dy, NULL);
 }
 
-/* CVODE's Newton matrix. Singular: CVODE then tries a shorter step. */
-static int linear_system(sunrealtype theta, N_Vector y, N_Vector dy, SUNMatrix matrix, sunbooleantype keep,
-                         sunbooleantype *renewed, sunrealtype gamma, void *self, N_Vector t1, N_Vector t2, N_Vector t3)
+static void linearise(cvode_integrator *base, const double *y)
 {
-  (void)theta, (void)dy, (void)matrix, (void)t1, (void)t2, (void)t3;
-  regularised *in = self;
-  *renewed = !keep;
-  if (!keep) structure_newton_linearise(&in->newton, in->base.m, NV_DATA_S(y));
-  return structure_newton_factor(&in->newton, in->base.m, gamma) ? 0 : INTEGRATE_SINGULAR;
+  structure_newton_linearise(&((regularised *)base)->newton, base->m, y);
 }
 
-static void solve(void *newton, double *r) { structure_newton_solve(newton, r); }
+static bool factor(cvode_integrator *base, double gamma)
+{
+  return structure_newton_factor(&((regularised *)base)->newton, base->m, gamma);
+}
+
+static void solve(cvode_integrator *base, double *r) { structure_newton_solve(&((regularised *)base)->newton, r); }
+
+static const cvode_equations equations = {rate, linearise, factor, solve};
 
 /* The variational equations s_j' = J s_j. */
 static int variation_rhs(int n, sunrealtype theta, N_Vector y, N_Vector dy, N_Vector *s, N_Vector *ds, void *self,
@@ -65,28 +59,6 @@ static int variation_rhs(int n, sunrealtype theta, N_Vector y, N_Vector dy, N_Ve
   structure_newton_linearise(&in->variation, in->base.m, NV_DATA_S(y));
   for (int j = 0; j < n; ++j) structure_newton_multiply(&in->variation, in->base.m, NV_DATA_S(s[j]), NV_DATA_S(ds[j]));
   return 0;
-}
-
-/* Only memory can fail here, whatever the flag: CVodeSetLinearSolver's CVLS_MEM_FAIL has the number of CV_CONV_FAILURE.
- * CVODE's rule for when to renew the Jacobian stays as it is: renewing it in every step was measured 30 % slower, since
- * CVODE then forgets the rate of convergence and takes a second Newton iteration to learn it. */
-static hc_status make_cvode(regularised *in)
-{
-  N_VConst(0.0, in->base.y);
-  int flag = CVodeInit(in->base.cv, rhs, 0.0, in->base.y); /* first: the other calls need it */
-  if (flag != CV_SUCCESS) return HC_NO_MEMORY;
-  const int flags[] = {
-      HC_CVODE_QUIET(in->base.cv),
-      CVodeWFtolerances(in->base.cv, integrate_weights),
-      CVodeSetUserData(in->base.cv, in),
-      CVodeSetLinearSolver(in->base.cv, in->base.ls, in->base.jac),
-      CVodeSetLinSysFn(in->base.cv, linear_system),
-      CVodeSetMaxNumSteps(in->base.cv, MAX_STEPS),
-      CVodeSetMaxErrTestFails(in->base.cv, MAX_ERROR_FAILS),
-      CVodeSetMaxConvFails(in->base.cv, MAX_NEWTON_FAILS),
-      CVodeSetMaxHnilWarns(in->base.cv, -1),
-  };
-  return integrate_first_flag(flags, sizeof flags / sizeof *flags) == CV_SUCCESS ? HC_OK : HC_NO_MEMORY;
 }
 
 /* The error test includes the variations, with a coarse tolerance. Without them a step may pass over a corner that
@@ -107,18 +79,21 @@ static hc_status make_variations(regularised *in)
       CVodeSetSensErrCon(in->base.cv, 1),
       CVodeSensToggleOff(in->base.cv),
   };
-  return integrate_first_flag(flags, sizeof flags / sizeof *flags) == CV_SUCCESS ? HC_OK : HC_NO_MEMORY;
+  return integrate_set_up(flags, sizeof flags / sizeof *flags);
 }
 
 static hc_status make_parts(regularised *in, const modal_base *base)
 {
   hc_status st = structure_newton_make(&in->newton, base, &in->base.memory);
   if (st == HC_OK) st = structure_newton_make(&in->variation, base, &in->base.memory);
-  if (st == HC_OK) st = integrate_make_parts(&in->base, in->n, CV_BDF, &in->newton, solve);
+  if (st == HC_OK) st = integrate_make_parts(&in->base, in->n, CV_BDF, &equations);
   if (st != HC_OK) return st;
+  const int flags[] = {CVodeSetMaxErrTestFails(in->base.cv, MAX_ERROR_FAILS),
+                       CVodeSetMaxConvFails(in->base.cv, MAX_NEWTON_FAILS)};
+  st = integrate_set_up(flags, sizeof flags / sizeof *flags);
   in->s = N_VCloneVectorArray(in->n, in->base.y); /* memory: tested in integrate_make_parts */
   in->s_tolerance = workspace_doubles(&in->base.memory, (size_t)in->n);
-  return in->s && in->s_tolerance ? HC_OK : HC_NO_MEMORY;
+  return in->s && in->s_tolerance ? st : HC_NO_MEMORY;
 }
 
 static void release(integrator *base)
@@ -224,7 +199,6 @@ hc_status integrate_new_regularised(const modal_base *base, double tolerance, in
   in->base.tolerance = tolerance;
   in->base.n_sized = in->n = 2 * base->n + base->n_contacts;
   hc_status st = make_parts(in, base);
-  if (st == HC_OK) st = make_cvode(in);
   if (st == HC_OK) st = make_variations(in);
   if (st == HC_OK) {
     *out = &in->base.base;

@@ -3,11 +3,7 @@
  * A period is the phase theta = 0 .. 2 pi, and CVODE starts afresh in each. This costs a start at order 1, and has two
  * advantages: theta never exceeds 2 pi, so 20 000 periods lose no accuracy; and a period is a function of the state
  * alone, bit for bit, so that successive states converge to its fixed point. With the step history kept, each period
- * would have other steps, and states would converge only to their error.
- *
- * One interface, three integrators. integrate_regularised.h: the equations of scaled.h by CVODE. integrate_events.h:
- * the exact law by CVODE, event-driven: one smooth right-hand side for each set of contact states, from one change of
- * state (transition) to the next. integrate_closed_form.h: the same law without CVODE, to rounding. */
+ * would have other steps, and states would converge only to their error. */
 #pragma once
 
 #include "numerics/base/status.h"
@@ -21,6 +17,27 @@ typedef struct integrator integrator;
 
 /* Callback after each internal step theta0..theta1 of a watched period; a transition of the exact law ends a step. */
 typedef hc_status integrate_watch(void *self, const integrator *in, double theta0, double theta1);
+
+/* integrate_regularised.c: the regularised law, the equations of scaled.h by BDF with the analytic Jacobian of
+ * structure_newton.h. They are stiff: a slipping slider relaxes at the rate 1/regularisation. tolerance > 0: error of a
+ * step, relative to the states' sizes. HC_BAD_INPUT, HC_NO_MEMORY. */
+hc_status integrate_new_regularised(const modal_base *base, double tolerance, integrator **out);
+
+/* integrate_events.c: the exact law by CVODE, one smooth right-hand side for each set of contact states, from one
+ * change of state (transition) to the next; guards are those of contact_track.h. Adams' method, or BDF where damping
+ * makes the structure stiff: where its largest rate is 60 times the lowest natural frequency or more (beam16: 4000
+ * steps a period, not 22 000). A contact with two tangents that slips under the law of the circle adds the angle of its
+ * traction to the states (law_planar.c). tolerance as before. HC_BAD_INPUT, HC_NO_MEMORY. */
+hc_status integrate_new_events(const modal_base *base, double tolerance, integrator **out);
+
+/* integrate_closed_form.c: the exact law without CVODE, transient.method: closed_form. While no contact changes its
+ * state the motion is the exponential of a linear equation: a power series, summed to rounding (motion_series.h), or of
+ * a stiff structure, whose series would take thousands of steps, its complex modes (motion_modes.h). A change of state
+ * is a root of guards that are polynomials or sums of exponentials; none is missed except excursions below rounding.
+ * Period map, monodromy matrix, peaks and harmonics have no error but rounding: there is no tolerance. Complex modes
+ * are used where the fastest rate is more than `stiff` times omega (INTERVAL_MODES_STIFF of interval_modes.h; 0:
+ * wherever they exist; INFINITY: never). HC_NO_MEMORY. */
+hc_status integrate_new_closed_form(const modal_base *base, double stiff, integrator **out);
 
 void integrate_free(integrator *in);
 
@@ -39,7 +56,7 @@ hc_status integrate_period(integrator *in, const scaled_model *m, double *y, int
 
 /* As integrate_period, with monodromy[n_states * n_states], by columns: d y[i](2 pi) / d y[j](0) at [i + j n_states];
  * on a periodic orbit it is the monodromy matrix. It comes from the variational equations; with smooth contacts in
- * integrate_events.h from central differences, with an error of about 1e-8. Contact forces are continuous, so the
+ * integrate_events.c from central differences, with an error of about 1e-8. Contact forces are continuous, so the
  * saltation matrix of a transition is the identity. A slider that follows from x at theta = 0 (slipping, separated) has
  * a column of zeros. */
 hc_status integrate_monodromy(integrator *in, const scaled_model *m, double *y, double *monodromy);

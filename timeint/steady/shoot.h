@@ -2,7 +2,7 @@
  *
  * Newton (KINSOL): z - F^k(z) = 0 with the Jacobian I - Phi. Quadratic where F is smooth, which it is unless the orbit
  * grazes a transition; the number of periods it takes does not depend on the damping. A free slider stays where the
- * start put it; the rest of the orbit is unique given that. Large structures take chord steps (chords.h). Anderson
+ * start put it; the rest of the orbit is unique given that. Large structures take chord steps. Anderson
  * (KINSOL's fixed point) needs no Phi: used where Newton fails. */
 #pragma once
 

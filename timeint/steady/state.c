@@ -5,9 +5,7 @@
 
 #include "numerics/base/constants.h"
 #include "numerics/norm.h"
-#include "timeint/closed_form/integrate_closed_form.h"
-#include "timeint/cvode/integrate_events.h"
-#include "timeint/cvode/integrate_regularised.h"
+#include "timeint/closed_form/interval_modes.h"
 #include "timeint/steady/mass_scaling.h"
 #include "timeint/steady/timeint_private.h"
 

@@ -8,8 +8,6 @@
 
 #include "compare/response.h"
 #include "compare/study/scene_solvers.h"
-#include "hbm/contact/aft.h"
-#include "hbm/contact/exact_force.h"
 #include "numerics/base/constants.h"
 #include "numerics/series.h"
 #include "numerics/workers.h"
@@ -136,9 +134,9 @@ typedef struct force_workspace {
   const scene *sc;
   model *m;
   moving_contact *contacts;
-  exact_force *fine;
+  contact_forces *fine;
   hbm_solver *hbm[N_SAMPLES]; /* of the sampled equations; NULL: N is too small for H */
-  aft *sampled[N_SAMPLES];
+  contact_forces *sampled[N_SAMPLES];
 } force_workspace;
 
 /* force[SHOWN_TIMES + 1] over a period, after one in which the sliders settle; returns its largest size. */
@@ -182,7 +180,7 @@ static json_t *sampled_answer(const force_workspace *w, int k, double omega, con
   if (hbm_solve(w->hbm[k], omega, X, &point) != HC_OK || hbm_measure(w->hbm[k], X, &m) != HC_OK) m.amplitude = NAN;
   json_t *answer = json_pack("{s:o, s:b}", "amplitude", json_finite(m.amplitude), "touches",
                              (int)(isfinite(m.amplitude) && m.contact.regime > CONTACT_LINEAR));
-  if (!F || aft_eval(w->sampled[k], at->X, missed, NULL, NULL) != HC_OK) return answer;
+  if (!F || contact_forces_eval(w->sampled[k], at->X, missed, false, &(contact_report){0}) != HC_OK) return answer;
   for (int i = 0; i < n; ++i) missed[i] -= F[i];
   for (int h = 0; h <= H; ++h) {
     folds[2 * h] = size_of(F, samples[k] - h);
@@ -199,7 +197,7 @@ static json_t *state_of(const force_workspace *w, double omega, const solution *
 {
   double X[FINE_COEF] = {0}, F[FINE_COEF], force[SHOWN_TIMES + 1], largest = 0;
   memcpy(X, at->X, (size_t)(2 * w->sc->hbm.harmonics + 1) * sizeof *X);
-  const bool known = at->touches && exact_force_eval(w->fine, X, F, NULL, NULL) == HC_OK &&
+  const bool known = at->touches && contact_forces_eval(w->fine, X, F, false, &(contact_report){0}) == HC_OK &&
                      (largest = force_over_period(w, X, force)) > 0;
   const double *start = !at->touches && more ? more->X : at->X;
   json_t *sampled = json_array();
@@ -226,12 +224,12 @@ static hc_status answer_curve(void *self, int task, const hc_monitor *monitor)
   w = (force_workspace){.sc = sc};
   hc_status st = scene_model(sc, &w.m);
   if (st == HC_OK) st = moving_contacts_of_model(w.m, &w.contacts);
-  if (st == HC_OK) st = scene_exact(sc, FINE_HARMONICS, &w.fine);
+  if (st == HC_OK) st = scene_forces(sc, HBM_FORCE_EXACT, FINE_HARMONICS, 0, &w.fine);
   for (int i = 0; i < N_SAMPLES && st == HC_OK; ++i) {
     if (samples[i] < 2 * H + 2) continue;
     with_samples.hbm.samples = samples[i];
     st = scene_hbm_solver(&with_samples, &w.hbm[i]);
-    if (st == HC_OK) st = scene_aft(sc, H, samples[i], &w.sampled[i]);
+    if (st == HC_OK) st = scene_forces(sc, HBM_FORCE_SAMPLED, H, samples[i], &w.sampled[i]);
   }
   f->states = json_array();
   for (int i = 0; i < all->n_omega && st == HC_OK; ++i) {
@@ -243,9 +241,9 @@ static hc_status answer_curve(void *self, int task, const hc_monitor *monitor)
   }
   for (int i = 0; i < N_SAMPLES; ++i) {
     hbm_solver_free(w.hbm[i]);
-    aft_free(w.sampled[i]);
+    contact_forces_free(w.sampled[i]);
   }
-  exact_force_free(w.fine);
+  contact_forces_free(w.fine);
   free(w.contacts);
   model_free(w.m);
   return st;

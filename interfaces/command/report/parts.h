@@ -57,7 +57,7 @@ hc_status structure_json(const scene *sc, const comparison *c, json_t *others, c
  * omega
  *
  *     the HBM solution X with exact forces and largest amplitude, its force over the period, the true harmonics F;
- *     for each N the harmonics that N samples of X's force give (aft.h), sampled minus true; the first true ones that
+ *     for each N the harmonics that N samples of X's force give (aft.c), sampled minus true; the first true ones that
  *     fold onto them, F_h sampled = F_h + sum_m conj(F_{mN-h}) + F_{mN+h}; the sampled equations' own solution ---- */
 
 enum { ALIASING_MOST_OMEGAS = 4 };
