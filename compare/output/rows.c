@@ -325,7 +325,7 @@ static const char *stability_text(int s) { return s > 0 ? "stable" : s < 0 ? "un
   X(ALL, INTEGER, branch, "", "turning points passed; empty: a steady state of time integration", r->branch >= 0, \
     r->branch) \
   X(ALL, TEXT, verdict, "", "proven or unproven", true, r->proven ? "proven" : "unproven") \
-  X(ALL, TEXT, reason, "", "why it is unproven: docs/interface.md, 4", !r->proven, proof_reason_text(r->reason)) \
+  X(ALL, TEXT, reason, "", "why it is unproven: docs/interface.md, 4", !r->proven, proof_reasons[r->reason].words) \
   X(ALL, TEXT, states, "", "letters of the contacts after each transition: O open, N closed, S stick, +, - slip", \
     *r->states, r->states) \
   X(ALL, INTEGER, transitions, "", "of the contacts in a period", r->multiple > 0, r->transitions) \

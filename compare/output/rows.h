@@ -1,6 +1,6 @@
 /* rows.h - the columns of results, a table a kind, for all that shows, keeps or hands them over: csv, json, the aligned
- * table, C, Python, report, studies. A new column is a new line in rows.c and nothing else: its name, unit, meaning and
- * value. How they are written: compare/output/table.h. */
+ * table, C, Python, report, studies, the lab. A new column is a new line in rows.c and nothing else: its name, unit,
+ * meaning and value. How they are written: compare/output/table.h. */
 #pragma once
 
 #include "compare/accuracy/accuracy.h"

@@ -122,7 +122,7 @@ static hc_status judge_proofs(read_case *of, const compare_setup *setup, const h
   for (int i = 0; i < p.n && st == HC_OK; ++i) {
     const proof_row *r = &p.rows[i];
     const double most = fmax(fabs(r->error.low), fabs(r->error.high)) / r->amplitude.low;
-    st = gate_add_proof(g, setup, r->omega, r->branch, r->proven ? NULL : proof_reason_text(r->reason), most);
+    st = gate_add_proof(g, setup, r->omega, r->branch, r->proven ? NULL : proof_reasons[r->reason].words, most);
   }
   proofs_clear(&p);
   return st;

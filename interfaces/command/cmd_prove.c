@@ -1,5 +1,6 @@
 /* cmd_prove.c - hbmcheck prove: next to each solution, is there a periodic orbit of the exact law, and where? */
 #include <errno.h>
+#include <jansson.h>
 #include <stddef.h>
 #include <stdio.h>
 #include <string.h>
@@ -97,8 +98,7 @@ table *proofs_table(const cli_common *common, const proofs *p, hc_status st)
   table_note(t, "%s%s%d of %d proven", title, *title ? ": " : "", proven, p->n);
   for (int k = 0; k < PROOF_N_REASONS; ++k)
     if (for_reason[k])
-      table_note(t, "%d unproven, %s: %s", for_reason[k], proof_reason_text((proof_reason)k),
-                 proof_reason_meaning((proof_reason)k));
+      table_note(t, "%d unproven, %s: %s", for_reason[k], proof_reasons[k].words, proof_reasons[k].meaning);
   if (led)
     table_note(
         t,

@@ -27,6 +27,7 @@ void lab_free(lab *l)
   drop_curves(l);
   case_clear(&l->sc);
   free(l->values);
+  free(l->words);
   free(l);
 }
 
@@ -131,8 +132,15 @@ void lab_begin(lab *l, int columns)
 {
   free(l->values);
   l->values = NULL;
-  l->rows = 0;
+  l->rows = l->n_named = l->n_words = 0;
   l->columns = columns;
+}
+
+void lab_begin_results(lab *l, rows_kind kind, int series)
+{
+  lab_begin(l, 0);
+  l->n_named = rows_columns(kind, ROWS_IN_MEMORY, l->named);
+  l->columns = l->n_named - (series > 0) + series;
 }
 
 double *lab_row(lab *l)
@@ -152,6 +160,33 @@ hc_status lab_add(lab *l, size_t n, const double *numbers)
   return row ? HC_OK : HC_NO_MEMORY;
 }
 
+/* The number of a text among the table's; -1: out of memory. */
+static int word_number(lab *l, const char *text)
+{
+  for (int i = 0; i < l->n_words; ++i)
+    if (!strcmp(l->words[i], text)) return i;
+  if (!GROW(l->words, l->n_words)) return -1;
+  snprintf(l->words[l->n_words], sizeof *l->words, "%s", text);
+  return l->n_words++;
+}
+
+hc_status lab_add_result(lab *l, rows_kind kind, const void *of)
+{
+  row_cell cells[ROWS_MOST];
+  const int n = rows_cells(kind, of, ROWS_IN_MEMORY, cells);
+  double *row = lab_row(l);
+  if (!row) return HC_NO_MEMORY;
+  for (int c = 0; c < n; ++c) {
+    const row_cell *cell = &cells[c];
+    if (!cell->there) continue;
+    if (cell->kind == TABLE_REAL) row[c] = cell->as.real;
+    if (cell->kind == TABLE_INTEGER) row[c] = (double)cell->as.integer;
+    if (cell->kind == TABLE_TEXT && (row[c] = word_number(l, cell->as.text)) < 0) return HC_NO_MEMORY;
+    if (cell->kind == TABLE_SERIES) memcpy(row + c, cell->as.series.v, (size_t)cell->as.series.n * sizeof *row);
+  }
+  return HC_OK;
+}
+
 int lab_answer(lab *l, hc_status st)
 {
   snprintf(l->message, sizeof l->message, "%s", st == HC_OK ? "" : hc_status_text(st));
@@ -162,3 +197,17 @@ const char *lab_message(const lab *l) { return l->message; }
 int lab_rows(const lab *l) { return l->rows; }
 int lab_columns(const lab *l) { return l->columns; }
 const double *lab_values(const lab *l) { return l->values; }
+
+const char *lab_name(const lab *l, int c) { return c < l->n_named ? l->named[c].name : NULL; }
+const char *lab_kind(const lab *l, int c)
+{
+  static const char *const kinds[] = {"text", "integer", "real", "series"}; /* of table_kind */
+  return c < l->n_named ? kinds[l->named[c].kind] : NULL;
+}
+const char *lab_word(const lab *l, int i) { return i < l->n_words ? l->words[i] : NULL; }
+int lab_column(const lab *l, const char *name)
+{
+  int c = l->n_named;
+  while (--c >= 0 && strcmp(l->named[c].name, name) != 0) continue;
+  return c;
+}

@@ -4,6 +4,8 @@
  * One degree of freedom: a structure is refused by lab_read. Tables are by rows, lab_rows by lab_columns values of type
  * double at lab_values; integers and enumerations stand in them as numbers, what is not known as NaN. A table is the
  * lab's and lasts until the next question. Units are the case's; omega in rad per unit time, th = omega t [rad].
+ * Tables of results have the columns, with names, that all other interfaces have: compare/output/rows.c. A text of
+ * theirs is the number of a lab_word; a series, the last column, takes the rest of the row.
  * Every question answers with a status of numerics/base/status.h as an int, 0 = HC_OK; what was found before it failed
  * is in the table all the same. The library's words for it are in lab_message. Nothing is printed. One lab, one thread.
  *
@@ -36,30 +38,20 @@ int lab_rows(const lab *l);
 int lab_columns(const lab *l);
 const double *lab_values(const lab *l);
 
+/* Of a table of results: the name of column c, and which of "real", "integer", "text", "series" it is; its text number
+ * i. NULL past the last, and of other tables. */
+const char *lab_name(const lab *l, int c);
+const char *lab_kind(const lab *l, int c);
+const char *lab_word(const lab *l, int i);
+
+/* The number of a column; -1: there is none of that name. */
+int lab_column(const lab *l, const char *name);
+
 /* ---- harmonic balance ---- */
 
 enum { LAB_EXACT, LAB_SAMPLED }; /* the contact force: event-located, or with hbm.samples */
 
-/* A row of lab_curve, lab_curve_at and lab_neighbours: these columns, then X[2H+1]. */
-enum {
-  LAB_OMEGA,
-  LAB_BRANCH,
-  LAB_AMPLITUDE,
-  LAB_MAX,
-  LAB_MIN,
-  LAB_RMS,
-  LAB_MEAN,
-  LAB_HARMONIC_1,
-  LAB_STABLE,     /* 1 stable, -1 unstable, 0 unknown */
-  LAB_MULTIPLIER, /* [1] modulus of the largest Floquet multiplier */
-  LAB_CONTACT,    /* contact_regime: the strongest thing that happens in a period */
-  LAB_ITERATIONS,
-  LAB_RESIDUAL,
-  LAB_HARMONICS, /* H */
-  LAB_SOLUTION   /* the first of X[2H+1] */
-};
-
-/* The response curve over the case's sweep, kept until the next of its kind. Errors of hbm_trace. */
+/* The response curve over the case's sweep, kept until the next of its kind: ROWS_FRF. Errors of hbm_trace. */
 int lab_curve(lab *l, int force);
 
 /* Every solution of that curve at omega, each solved for. HC_BAD_INPUT: there is no curve. Errors of hbm_curve_at. */
@@ -74,7 +66,7 @@ int lab_neighbours(lab *l);
 /* The same of every exact solution at omega. Errors of hbm_curve_at. */
 int lab_neighbours_at(lab *l, double omega);
 
-/* Special points: omega, amplitude, branch, hbm_special_kind, contact_regime before and after. */
+/* Special points: ROWS_SPECIALS. */
 int lab_specials(lab *l, int force);
 
 /* ---- one motion X[2 n_harm + 1] ---- */
@@ -96,9 +88,8 @@ int lab_work(lab *l);
 
 /* ---- time integration by the exact law, in closed form, or by CVODE where a law has none ---- */
 
-/* Steady states at omega[n], n <= NUMBER_LIST_MAX, from where transient.start says. Columns: omega, status,
- * amplitude, max, min, rms, mean, harmonic_1, stable, multiplier, period_multiple, periods, free sliders; then one
- * period of x at TIMEINT_WAVE instants. Errors of steady_states_run. */
+/* Steady states at omega[n], n <= NUMBER_LIST_MAX, from where transient.start says: ROWS_TRANSIENT. Errors of
+ * steady_states_run. */
 int lab_transients(lab *l, int n, const double *omega);
 
 /* ---- error over H and N ---- */

@@ -1,16 +1,16 @@
-/* lab_asked.c - lab_asked: puts the questions on standard input to the lab, one a line, and prints the last one's
- * table: status, rows and columns, then a line for each row, numbers with 17 digits. What the page works out from
- * questions is held against it.
- *     read BYTES, and on the next line so many bytes     curve FORCE     at FORCE OMEGA     motion H X[2H+1]
- *     neighbours     near OMEGA
- *     signal FORCE N     spectrum N SHOWN     work     errors OMEGA */
+/* lab_asked.c - lab_asked: puts the questions on standard input to the lab, one a line, and prints the table of each:
+ * status, rows and columns; a line each of names, kinds and words, tabs between; then a line a row, 17 digits. The
+ * module is held against it, and what the page works out from questions.
+ *     read BYTES, and on the next line so many bytes     curve FORCE     at FORCE OMEGA     specials FORCE
+ *     neighbours     near OMEGA     motion H X[2H+1] (no table)     signal FORCE N     spectrum N SHOWN     work
+ *     errors OMEGA     transients N OMEGA[N] */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "interfaces/lab/lab.h"
 
-enum { MOST_TEXT = 1 << 16, WRONG_USAGE = 64, BUG = 70 };
+enum { MOST_TEXT = 1 << 16, MOST_OMEGAS = 64, WRONG_USAGE = 64, BUG = 70 };
 
 static double number(void)
 {
@@ -45,6 +45,13 @@ static int answer_question(lab *l, const char *question)
   if (!strcmp(question, "work")) return lab_work(l);
   if (!strcmp(question, "neighbours")) return lab_neighbours(l);
   const double first = number();
+  if (!strcmp(question, "specials")) return lab_specials(l, (int)first);
+  if (!strcmp(question, "transients")) {
+    double omega[MOST_OMEGAS];
+    if (first > MOST_OMEGAS) exit(WRONG_USAGE);
+    for (int i = 0; i < first; ++i) omega[i] = number();
+    return lab_transients(l, (int)first, omega);
+  }
   if (!strcmp(question, "curve")) return lab_curve(l, (int)first);
   if (!strcmp(question, "errors")) return lab_errors(l, first);
   if (!strcmp(question, "near")) return lab_neighbours_at(l, first);
@@ -55,19 +62,34 @@ static int answer_question(lab *l, const char *question)
   exit(WRONG_USAGE);
 }
 
-int main(void)
+static void print_texts(const lab *l, const char *text_of(const lab *l, int i))
 {
-  char question[16];
-  int status = 0;
-  lab *l = lab_new();
-  if (!l) return BUG;
-  while (scanf("%15s", question) == 1) status = answer_question(l, question);
+  for (int i = 0; text_of(l, i); ++i) printf("%s%s", i ? "\t" : "", text_of(l, i));
+  putchar('\n');
+}
+
+static void print_table(const lab *l, int status)
+{
   const int columns = lab_columns(l);
   const double *v = lab_values(l);
   printf("%d %d %d\n", status, lab_rows(l), columns);
+  print_texts(l, lab_name);
+  print_texts(l, lab_kind);
+  print_texts(l, lab_word);
   for (int i = 0; i < lab_rows(l); ++i)
     for (int c = 0; c < columns; ++c)
       printf("%.17g%c", v[(size_t)i * (size_t)columns + (size_t)c], c + 1 < columns ? ' ' : '\n');
+}
+
+int main(void)
+{
+  char question[16];
+  lab *l = lab_new();
+  if (!l) return BUG;
+  while (scanf("%15s", question) == 1) {
+    const int status = answer_question(l, question);
+    if (strcmp(question, "motion") != 0) print_table(l, status);
+  }
   lab_free(l);
   return 0;
 }

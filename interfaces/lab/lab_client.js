@@ -1,22 +1,43 @@
 /* lab_client.js - the questions of lab.h for JavaScript, put to a module that hbmcheckLab() of lab.js has made. Every
  * one answers {status, message, rows, columns, values}: status 0 is HC_OK, values[row * columns + column] is a
- * Float64Array of the caller's own. Enumerations are those of lab.h. */
+ * Float64Array of the caller's own; and of results {names, kinds, words, list}: list[i] is row i by names, {omega: 7,
+ * stable: 'yes', coefficients: Float64Array, ...}, NaN what is not there, undefined if a text. */
 'use strict';
 
 const labForce = {exact: 0, sampled: 1};
-const labColumn = {omega: 0, branch: 1, amplitude: 2, max: 3, min: 4, rms: 5, mean: 6, harmonic1: 7, stable: 8,
-  multiplier: 9, contact: 10, iterations: 11, residual: 12, harmonics: 13, solution: 14};
 const labLaw = {law: 10, polynomial: 1, table: 3, points: 11};
+
+/* The table with its list; text, integer, real, series: lab_kind. */
+function labTable(table) {
+  const {rows, columns, names, kinds, words, values} = table;
+  const cell = (kind, row, c) => {
+    if (kind !== 'series') return kind === 'text' ? words[row[c]] : row[c];
+    const end = row.findIndex((v, i) => i >= c && isNaN(v));
+    return row.subarray(c, end < 0 ? columns : end);
+  };
+  table.list = names.length === 0 ? [] : Array.from({length: rows}, (_, i) => {
+    const row = values.subarray(i * columns, (i + 1) * columns);
+    return Object.fromEntries(names.map((name, c) => [name, cell(kinds[c], row, c)]));
+  });
+  return table;
+}
 
 function labClient(module) {
   const lab = module._lab_new();
   if (!lab) throw new Error('out of memory');
 
+  /* f(lab, 0), f(lab, 1), ... until there is none. */
+  const texts = f => {
+    const list = [];
+    for (let text; (text = f(lab, list.length));) list.push(module.UTF8ToString(text));
+    return list;
+  };
+
   const answer = status => {
     const rows = module._lab_rows(lab), columns = module._lab_columns(lab);
     const from = module._lab_values(lab) / 8; /* rows that cannot be: no memory to look at */
-    return {status, message: module.UTF8ToString(module._lab_message(lab)), rows, columns,
-      values: module.HEAPF64.slice(from, from + rows * columns)};
+    return labTable({status, message: module.UTF8ToString(module._lab_message(lab)), rows, columns, names: texts(module._lab_name),
+      kinds: texts(module._lab_kind), words: texts(module._lab_word), values: module.HEAPF64.slice(from, from + rows * columns)});
   };
 
   /* f(address) with room for `bytes`. */
@@ -63,4 +84,4 @@ function labClient(module) {
   };
 }
 
-if (typeof exports !== 'undefined') Object.assign(exports, {labClient, labForce, labColumn, labLaw});
+if (typeof exports !== 'undefined') Object.assign(exports, {labClient, labTable, labForce, labLaw});

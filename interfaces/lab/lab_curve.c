@@ -13,32 +13,15 @@ static hc_status add_solution(lab *l, hbm_solver *s, const hbm_curve *c, int k)
   response_row r;
   hc_status st = response_row_of(s, c, k, &r);
   if (st != HC_OK) return st;
-  const hbm_measures *m = &r.measures;
-  double row[LAB_SOLUTION + LAB_MOST_COEF] = {
-      [LAB_OMEGA] = r.point.omega,
-      [LAB_BRANCH] = r.point.branch,
-      [LAB_AMPLITUDE] = m->amplitude,
-      [LAB_MAX] = m->max,
-      [LAB_MIN] = m->min,
-      [LAB_RMS] = m->rms,
-      [LAB_MEAN] = m->mean,
-      [LAB_HARMONIC_1] = m->harmonic_1,
-      [LAB_STABLE] = r.stability_known ? hbm_stability_verdict(&r.stability) : 0,
-      [LAB_MULTIPLIER] = r.stability_known ? r.stability.multiplier : NAN,
-      [LAB_CONTACT] = m->contact.regime,
-      [LAB_ITERATIONS] = r.point.iterations,
-      [LAB_RESIDUAL] = r.point.residual,
-      [LAB_HARMONICS] = r.point.harmonics,
-  };
-  memcpy(row + LAB_SOLUTION, hbm_curve_X(c, k), (size_t)c->n_coef * sizeof *row);
-  return lab_add(l, LAB_SOLUTION + (size_t)c->n_coef, row);
+  r.series = hbm_curve_X(c, k);
+  return lab_add_result(l, ROWS_FRF, &r);
 }
 
 /* All of them: how the search ended, unless a row fails. */
 static hc_status add_solutions(lab *l, hbm_solver *s, const hbm_curve *c, hc_status searched)
 {
   hc_status st = HC_OK;
-  lab_begin(l, LAB_SOLUTION + c->n_coef);
+  lab_begin_results(l, ROWS_FRF, c->n_coef);
   for (int k = 0; k < c->n && st == HC_OK; ++k) st = add_solution(l, s, c, k);
   return st == HC_OK ? searched : st;
 }
@@ -111,7 +94,11 @@ static hc_status add_neighbour(lab *l, hbm_solver *s, const hbm_curve *c, int k)
   point.branch = c->points[k].branch;
   const hbm_curve one = {.n = 1, .n_coef = c->n_coef, .points = &point, .X = X};
   if (st == HC_OK) return add_solution(l, s, &one, 0);
-  return LAB_ADD(l, [LAB_OMEGA] = c->points[k].omega, [LAB_BRANCH] = point.branch);
+  double *row = lab_row(l);
+  if (!row) return HC_NO_MEMORY;
+  row[lab_column(l, "omega")] = c->points[k].omega;
+  row[lab_column(l, "branch")] = point.branch;
+  return HC_OK;
 }
 
 /* The neighbours of all points of *c. */
@@ -119,7 +106,7 @@ static hc_status add_neighbours(lab *l, const hbm_curve *c)
 {
   scene sc;
   hbm_solver *s = NULL;
-  lab_begin(l, LAB_SOLUTION + c->n_coef);
+  lab_begin_results(l, ROWS_FRF, c->n_coef);
   hc_status st = c->n ? lab_scene(l, LAB_SAMPLED, &sc) : HC_OK;
   if (c->n) sc.hbm.harmonics = (c->n_coef - 1) / 2; /* those that `auto` has found */
   if (c->n && st == HC_OK) st = lab_solver(&sc, &s);
@@ -151,17 +138,14 @@ int lab_neighbours_at(lab *l, double omega)
 
 int lab_specials(lab *l, int force)
 {
-  enum { COLUMNS = 6 };
   lab_kept *kept = kept_curve(l, force);
-  lab_begin(l, COLUMNS);
+  lab_begin_results(l, ROWS_SPECIALS, 0);
   if (!kept) return lab_answer(l, HC_BAD_INPUT);
   int found = 0;
   hbm_special *list;
   hc_status st = hbm_specials(kept->solver, &kept->curve, &list, &found);
-  for (int i = 0; i < found && st != HC_NO_MEMORY; ++i) {
-    const hbm_special *p = &list[i];
-    if (LAB_ADD(l, p->omega, p->amplitude, p->branch, p->kind, p->before, p->after) != HC_OK) st = HC_NO_MEMORY;
-  }
+  for (int i = 0; i < found && st != HC_NO_MEMORY; ++i)
+    if (lab_add_result(l, ROWS_SPECIALS, &list[i]) != HC_OK) st = HC_NO_MEMORY;
   free(list);
   return lab_answer(l, st);
 }

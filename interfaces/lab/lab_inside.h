@@ -1,6 +1,7 @@
 /* lab_inside.h - what the parts of the lab share: its case, the table of the last answer, the curves it keeps. */
 #pragma once
 
+#include "compare/output/rows.h"
 #include "hbm/hbm.h"
 #include "interfaces/lab/lab.h"
 #include "model/casefile/case_file.h"
@@ -18,6 +19,10 @@ struct lab {
   char message[CASE_MESSAGE];
   int rows, columns;
   double *values; /* [rows][columns] */
+  int n_named;    /* columns of results; 0: the table has others */
+  table_column named[ROWS_MOST];
+  int n_words;
+  char (*words)[ROWS_TEXT]; /* [n_words] texts of the table, each once */
   lab_kept kept[LAB_FORCES];
   int n_harm; /* of the motion; 0: there is none */
   double X[LAB_MOST_COEF];
@@ -25,6 +30,12 @@ struct lab {
 
 /* An empty table of so many columns. */
 void lab_begin(lab *l, int columns);
+
+/* An empty table of results of that kind; series: the numbers of its longest series, 0 where the kind has none. */
+void lab_begin_results(lab *l, rows_kind kind, int series);
+
+/* One more row of them: *of as of rows_cells. HC_NO_MEMORY. */
+hc_status lab_add_result(lab *l, rows_kind kind, const void *of);
 
 /* One more row, of NaN; NULL: out of memory. It may move with the next one. */
 double *lab_row(lab *l);

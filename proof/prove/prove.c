@@ -30,16 +30,6 @@ static const double same_orbit = 1e-6;  /* [amplitude] orbits with a smaller dif
 static const double same_motion = 1e-9; /* [amplitude] largest change by moving a slider that does not count */
 static const double same_branch = 0.5;  /* [amplitude] largest change by moving a slider on the same branch */
 
-static const struct {
-  const char *words, *meaning;
-} reasons[] = {
-#define REASON_WORDS(code, words, meaning) {words, meaning},
-    PROOF_REASONS(REASON_WORDS)
-#undef REASON_WORDS
-};
-const char *proof_reason_text(proof_reason r) { return reasons[r].words; }
-const char *proof_reason_meaning(proof_reason r) { return reasons[r].meaning; }
-
 typedef struct prover {
   const compare_setup *setup;
   const hc_monitor *monitor;

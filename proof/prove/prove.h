@@ -3,8 +3,6 @@
  * a wrong candidate is not proven. Meaning of proven: docs/proof.md. */
 #pragma once
 
-#include <jansson.h>
-
 #include "compare/compare_settings.h"
 #include "model/casefile/scene.h"
 
@@ -25,11 +23,15 @@
   X(PROOF_TOO_LARGE, "too large", "so many coordinates, transitions or steps that the checker does not begin")         \
   X(PROOF_NO_DIGITS, "out of digits", "the bounds are too wide in the numbers that were used")
 
-#define PROOF_ENUM(code, words, meaning) code,
-typedef enum proof_reason { PROOF_REASONS(PROOF_ENUM) PROOF_N_REASONS } proof_reason;
-#undef PROOF_ENUM
-const char *proof_reason_text(proof_reason r);
-const char *proof_reason_meaning(proof_reason r);
+#define PROOF_CODE(code, words, meaning)  code,
+#define PROOF_WORDS(code, words, meaning) {words, meaning},
+typedef enum proof_reason { PROOF_REASONS(PROOF_CODE) PROOF_N_REASONS } proof_reason;
+/* By proof_reason; in the header, so that rows are shown without the library that proves. */
+static const struct {
+  const char *words, *meaning;
+} proof_reasons[] = {PROOF_REASONS(PROOF_WORDS)};
+#undef PROOF_CODE
+#undef PROOF_WORDS
 
 /* Bounds low <= value <= high; NaN: unknown. */
 typedef struct proof_bounds {
@@ -70,8 +72,10 @@ typedef struct proofs {
   hc_status curve_end; /* status of the response curve, beyond whose end nothing was examined */
 } proofs;
 
-/* Callback with each row before it is stored, and its certificate (NULL: unproven); sets row->certificate. */
-typedef hc_status proof_keep(void *self, proof_row *row, const json_t *certificate);
+/* Callback with each row before it is stored, and its certificate (json_t of <jansson.h>; NULL: unproven); sets
+ * row->certificate. */
+struct json_t;
+typedef hc_status proof_keep(void *self, proof_row *row, const struct json_t *certificate);
 
 /* Proves the first response's motions at the frequencies of *setup, the scene's. HC_IO: the checker cannot be started,
  * or ended (errno); HC_NO_MEMORY, HC_INTERRUPTED. Rows found before an error are kept; call proofs_clear in any

@@ -1,10 +1,10 @@
-/* equal.js LAB_ANSWERS LAB [SCENES [SEED [CHROMIUM]]] - the module's answers against those of the native program, to 1e-12. LAB is the module, lab.js, asked in node; or
+/* equal.js LAB_ASKED LAB [SCENES [SEED [CHROMIUM]]] - the module's answers against those of the native program, to 1e-12. LAB is the module, lab.js, asked in node; or
  * with CHROMIUM the page, lab.html, whose own library is asked in a worker of the page, from disk. Random cases (seeded) and what the command line adds are put to both:
- * lab_answers prints every question's table, and the same questions go to the module by lab_client.js. Exit 1: an answer differs, or the page said or asked for something. */
+ * the same questions go to lab_asked and to the module. Exit 1: an answer differs, or the page said or asked for something. */
 'use strict';
 const fs = require('fs'), path = require('path');
-const {labClient, labForce, labColumn} = require(path.join(__dirname, '../../interfaces/lab/lab_client.js'));
-const {answersOf} = require('./native.js'), {open} = require('./chromium.js'), {libraryOf} = require('./page_library.js');
+const {labClient, labForce} = require(path.join(__dirname, '../../interfaces/lab/lab_client.js'));
+const {clientOf} = require('./native.js'), {open} = require('./chromium.js'), {libraryOf} = require('./page_library.js');
 
 const [native, labPath, scenes = '50', seed = '1', chromium] = process.argv.slice(2);
 const limit = 1e-12;
@@ -39,7 +39,7 @@ function randomCase(random) {
     'compare: {harmonics: [1, 3, 5], samples: [16, 64, 256]}', ''].join('\n');
 }
 
-/* ---- the questions of lab_answers.c ---- */
+/* ---- the questions ---- */
 
 const forces = ['exact', 'sampled'];
 
@@ -48,13 +48,11 @@ const ASKED = 8, SAMPLES = 64, SHOWN = 40;
 
 async function asked(lab) {
   const curve = await lab.curve(labForce.exact);
-  const row = k => curve.values.subarray(k * curve.columns, (k + 1) * curve.columns);
-  const at = i => row(Math.floor((curve.rows - 1) * ((i + ASKED / 2) % ASKED) / ASKED));
-  const omegas = Array.from({length: ASKED}, (_, i) => at(i)[labColumn.omega]);
-  return {omegas, X: at(0).slice(labColumn.solution, labColumn.solution + 2 * at(0)[labColumn.harmonics] + 1)};
+  const at = i => curve.list[Math.floor((curve.rows - 1) * ((i + ASKED / 2) % ASKED) / ASKED)];
+  return {omegas: Array.from({length: ASKED}, (_, i) => at(i).omega), X: at(0).coefficients};
 }
 
-async function moduleAnswers(lab, {omegas, X}) {
+async function answersOf(lab, {omegas, X}) {
   const all = {};
   for (const force of forces) {
     all['curve ' + force] = await lab.curve(labForce[force]);
@@ -72,17 +70,26 @@ async function moduleAnswers(lab, {omegas, X}) {
   return all;
 }
 
+async function nativeAnswers(text, questions) {
+  const lab = clientOf(native, true);
+  lab.read(text);
+  const all = await answersOf(lab, questions);
+  lab.answerAll();
+  return all;
+}
+
 /* ---- the difference ---- */
 
 /* What is not held against each other. Rounding errors differ (FFTW's vector instructions, libm), and decide where a
  * curve has its points and how many false turning points of samples it passes; solutions at a given omega do not depend
- * on that. Iterations, residuals and periods until something settles count rounding errors; the strongest regime and the
- * multiplier of a motion that just reaches a limit, or just touches, are theirs to decide. */
+ * on that. Iterations, residuals, steps and periods until something settles count rounding errors; the strongest regime and
+ * the multiplier of a motion that just reaches a limit, or just touches, are theirs to decide. */
 const notCompared = [/^curve /, /^specials /];
-const rounded = [labColumn.branch, labColumn.contact, labColumn.iterations, labColumn.residual];
-const unmeasured = {at: rounded, near: rounded, errors: [5], transients: [9, 11]};
-/* Columns of one size. */
-const sharing = {at: [[2, 8], [14]], near: [[2, 8], [14]], transients: [[2, 8], [13]], spectrum: [[1, 3], [3, 5]]};
+const rounded = ['branch', 'contact', 'iterations', 'residual'];
+const unmeasured = {at: rounded, near: rounded, errors: [5], transients: ['multiplier', 'contact', 'periods', 'closure', 'steps', 'lyapunov']};
+/* Columns of one size: of results the measures, and a series, which is last. */
+const sharing = (kind, {names}) => (kind === 'spectrum' ? [[1, 3], [3, 5]] :
+  names.includes('amplitude') ? [[names.indexOf('amplitude'), names.indexOf('harmonic_1') + 1], [names.length - 1]] : []);
 
 /* Of each column; X is the motion that was asked about. */
 function sizesOf(kind, a, X) {
@@ -95,19 +102,20 @@ function sizesOf(kind, a, X) {
     sizes[4] = Math.max(...X.map(Math.abs));
     sizes[5] = sizes[3] * sizes[4];
   }
-  for (const [from, to = a.columns] of sharing[kind] || []) sizes.fill(Math.max(...sizes.slice(from, to)), from, to);
+  for (const [from, to = a.columns] of sharing(kind, a)) sizes.fill(Math.max(...sizes.slice(from, to)), from, to);
   return sizes;
 }
 
 /* Largest |a - b| of row i of one table and row j of another, over the columns' sizes; a multiplier counts by its own limit. NaN equals NaN alone. */
 function distance(kind, sizes, a, i, b, j) {
-  const settled = kind !== 'transients' || b.values[j * b.columns + 1] === 0;
+  const settled = kind !== 'transients' || b.list[j].status === 'ok';
+  const cell = (table, row, c) => (table.kinds[c] === 'text' ? table.list[row][table.names[c]] : table.values[row * table.columns + c]);
   let worst = 0;
   for (let c = 0; c < a.columns; ++c) {
-    const value = a.values[i * a.columns + c], other = b.values[j * b.columns + c];
-    if (!settled && c > 1) break;
-    if ((unmeasured[kind] || []).includes(c) || Object.is(value, other) || value === other) continue;
-    const own = ['at', 'near'].includes(kind) && c === labColumn.multiplier ? limitOfMultipliers / limit : 1;
+    const name = a.names[c] || c, value = cell(a, i, c), other = cell(b, j, c);
+    if (!settled && !['omega', 'status'].includes(name)) continue;
+    if ((unmeasured[kind] || []).includes(name) || Object.is(value, other) || value === other) continue;
+    const own = name === 'multiplier' ? limitOfMultipliers / limit : 1;
     const d = Math.abs(value - other) / sizes[c] / own;
     if (!(d <= worst)) worst = isNaN(d) ? Infinity : d;
   }
@@ -116,11 +124,19 @@ function distance(kind, sizes, a, i, b, j) {
 
 /* Of two tables, row by row. */
 function difference(kind, sizes, a, b) {
-  if (!a || !b || a.status !== b.status || a.rows !== b.rows || a.columns !== b.columns) return Infinity;
+  if (!a || !b || a.status !== b.status || a.rows !== b.rows || a.columns !== b.columns || `${a.names} ${a.kinds}` !== `${b.names} ${b.kinds}`) return Infinity;
   let worst = 0;
   for (let i = 0; i < a.rows; ++i) worst = Math.max(worst, distance(kind, sizes, a, i, b, i));
   return worst;
 }
+
+/* Has every row all columns by name, texts in words, the numbers those of the table? */
+const listed = ({rows, columns, names, kinds, words, values, list}) => list.length === (names.length ? rows : 0) && list.every((row, i) =>
+  Object.keys(row).join() === names.join() && names.every((name, c) => {
+    const value = values[i * columns + c];
+    if (kinds[c] === 'text') return isNaN(value) ? row[name] === undefined : row[name] === words[value];
+    return kinds[c] === 'series' ? row[name].every((v, k) => v === values[i * columns + c + k]) && (isNaN(value) || row[name].length > 2) : Object.is(row[name], value);
+  }));
 
 /* ---- where rounding decides ---- */
 
@@ -138,11 +154,11 @@ const rewritten = (text, random) => text.replace(/(mass|damping|stiffness|amplit
 function isAmong(kind, sizes, a, all) {
   const others = all.filter(b => a.status === b.status && a.columns === b.columns); /* Newton's methods may fail in two ways */
   if (!others.length) return false;
-  const listed = ['at', 'near'].includes(kind); /* rows are found or not; else each has its place */
-  if (!listed && !others.every(b => a.rows === b.rows)) return false;
+  const anywhere = ['at', 'near'].includes(kind); /* rows are found or not; else each has its place */
+  if (!anywhere && !others.every(b => a.rows === b.rows)) return false;
   const rows = others.flatMap(b => Array.from({length: b.rows}, (_, j) => ({b, j})));
   const from = (row, other) => distance(kind, sizes, row.b, row.j, other.b, other.j);
-  const placed = row => rows.filter(other => listed || other.j === row.j);
+  const placed = row => rows.filter(other => anywhere || other.j === row.j);
   const moves = row => Math.max(0, ...placed(row).map(other => from(row, other)).filter(d => d <= sameAnswer));
   const own = Array.from({length: a.rows}, (_, j) => ({b: a, j}));
   const meets = (row, other) => from(row, other) <= limit + moves(other);
@@ -170,9 +186,13 @@ async function main() {
   for (let i = 0; i < Number(scenes); ++i) {
     const text = randomCase(random);
     if ((await lab.read(text)).status !== 0) throw new Error('not a case: ' + text);
-    const questions = await asked(lab), ours = await moduleAnswers(lab, questions), theirs = answersOf(native, text, questions);
+    const questions = await asked(lab), ours = await answersOf(lab, questions), theirs = await nativeAnswers(text, questions);
     let others = null;
     for (const question of new Set([...Object.keys(ours), ...Object.keys(theirs)])) {
+      if (!listed(ours[question])) {
+        console.log(`scene ${i}: ${question}: the rows by name are not those of the table`);
+        ++failed;
+      }
       if (notCompared.some(pattern => pattern.test(question))) continue;
       const kind = question.split(' ')[0], name = question.replace(/ \d+$/, '');
       const [a, b] = [ours[question], theirs[question]], sizes = b && sizesOf(kind, b, questions.X), d = difference(kind, sizes, a, b);
@@ -183,7 +203,8 @@ async function main() {
       }
       if (!others) {
         const change = randomNumbers(i);
-        others = [theirs, ...Array.from({length: REWRITTEN}, () => answersOf(native, rewritten(text, change), questions))];
+        others = [theirs];
+        while (others.length <= REWRITTEN) others.push(await nativeAnswers(rewritten(text, change), questions));
       }
       const good = a && b && isAmong(kind, sizes, a, others.map(all => all[question]));
       console.log(`scene ${i}: ${question}: ${d.toExponential(1)}, ${good ? 'as the native answer to a case changed by ' + rewriting : 'NOT SO natively'}`);

@@ -1,12 +1,14 @@
 /* page_library.js - the library that the page carries, asked by a test: in a worker of the page's own source, in Chromium. */
 'use strict';
+const path = require('path');
+const {labTable} = require(path.join(__dirname, '../../interfaces/lab/lab_client.js'));
 
 /* Put behind the page's worker, whose `lab` and listener it takes over: a job is {method, args} of lab_client.js. Numbers go as text, which keeps NaN and every digit. */
 function answerQuestions() {
   onmessage = async ({data: {method, args}}) => {
     if (!lab) lab = labClient(await hbmcheckLab());
     const answer = lab[method](...args);
-    postMessage(answer && answer.values ? Object.assign(answer, {values: answer.values.join()}) : answer);
+    postMessage(answer && answer.values ? Object.assign(answer, {list: [], values: answer.values.join()}) : answer);
   };
 }
 
@@ -24,7 +26,7 @@ async function libraryOf(p) {
   const ask = method => async (...args) => {
     const job = JSON.stringify({method, args: args.map(arg => (ArrayBuffer.isView(arg) ? Array.from(arg) : arg))});
     const answer = await p.evaluate(`askLibrary(${job})`);
-    return answer && Object.assign(answer, {values: Float64Array.from(answer.values ? answer.values.split(',') : [], Number)});
+    return answer && labTable(Object.assign(answer, {values: Float64Array.from(answer.values ? answer.values.split(',') : [], Number)}));
   };
   const methods = ['read', 'curve', 'curveAt', 'specials', 'neighboursAt', 'motion', 'signal', 'spectrum', 'work', 'transients', 'errors', 'free'];
   return Object.fromEntries(methods.map(method => [method, ask(method)]));

@@ -16,8 +16,8 @@ function check(good, words) {
 const carried = fs.readdirSync(cases).filter(name => name.endsWith('.yaml')).map(name => `== ${path.basename(name, '.yaml')}\n${fs.readFileSync(path.join(cases, name), 'utf8')}`);
 const context = vm.createContext({document: {getElementById: () => ({textContent: '\n' + carried.join('')})}});
 const parts = ['lab_client.js', 'page/state.js', 'page/case_text.js', 'page/presets.js'].map(name => fs.readFileSync(path.join(root, 'interfaces/lab', name), 'utf8'));
-vm.runInContext(parts.join('\n') + '\nvar all = {labClient, labForce, labColumn, presets, presetText, questionText, stateOfCase};', context);
-const {labClient, labForce, labColumn, presets, presetText, questionText, stateOfCase} = context.all;
+vm.runInContext(parts.join('\n') + '\nvar all = {labClient, labForce, presets, presetText, questionText, stateOfCase};', context);
+const {labClient, labForce, presets, presetText, questionText, stateOfCase} = context.all;
 
 /* The preset's case and settings, read. */
 function begin(lab, preset) {
@@ -28,21 +28,20 @@ function begin(lab, preset) {
   return state;
 }
 
-const column = (table, c) => Array.from({length: table.rows}, (_, i) => table.values[i * table.columns + c]);
+const column = (table, name) => table.list.map(row => row[name]);
 
 /* Of the curve: its end, its largest amplitude at points and folds, the folds' omegas. */
 function looked(lab, force) {
   const curve = lab.curve(force), specials = lab.specials(force);
-  const folds = Array.from({length: specials.rows}, (_, i) => specials.values.subarray(i * specials.columns)).filter(row => row[3] === 0);
-  const omegas = column(curve, labColumn.omega);
-  return {status: curve.status, end: omegas[omegas.length - 1], peak: Math.max(...column(curve, labColumn.amplitude), ...folds.map(row => row[1])), folds: folds.map(row => row[0])};
+  const folds = specials.list.filter(row => row.kind === 'turning point'), omegas = column(curve, 'omega');
+  return {status: curve.status, end: omegas[omegas.length - 1], peak: Math.max(...column(curve, 'amplitude'), ...folds.map(row => row.amplitude)), folds: folds.map(row => row.omega)};
 }
 
 /* By name: what the exact curve of each is. */
 function solveAll(lab) {
   const all = {};
   for (const preset of presets) {
-    const state = begin(lab, preset), exact = looked(lab, labForce.exact), near = column(lab.neighbours(), labColumn.amplitude);
+    const state = begin(lab, preset), exact = looked(lab, labForce.exact), near = column(lab.neighbours(), 'amplitude');
     check(exact.status === 0 && exact.end === state.to, `${preset.name}: the exact curve ends at ${exact.end}`);
     check(near.filter(isFinite).length >= 0.9 * near.length, `${preset.name}: samples beside ${near.filter(isFinite).length} of ${near.length} points`);
     check(!/^Figure/.test(preset.name) || (!state.mean && state.restart === 'sample'), `${preset.name}: the paper's settings`);

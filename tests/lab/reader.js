@@ -138,6 +138,10 @@ async function drawingsHaveTheirNumbers(p) {
   await until(p, '$("curve-table").tBodies[0].rows.length && $("motion-table").tBodies[0].rows.length', 'tables are filled when opened');
   const curve = await numbersOf(p, 'curve-table'), specials = await numbersOf(p, 'special-table'), motion = await numbersOf(p, 'motion-table');
   check(curve.length === await p.evaluate('seen.exact.curve.rows'), 'a row for each point of the curve');
+  const heads = await p.evaluate('Array.from($("curve-table").tHead.rows[0].cells, cell => cell.textContent)');
+  const names = await p.evaluate('seen.exact.curve.names.filter((name, c) => seen.exact.curve.kinds[c] !== "series")');
+  check(heads.length === names.length + 1 && names.every(name => heads.some(head => head.includes(name))), `all columns of results, and that with samples: ${heads}`);
+  check(heads.every((head, c) => curve.some(row => row[c] && row[c] !== '-')), 'no column is empty');
   const sampled = curve.filter(row => row[2] !== '-'), off = sampled.map(row => Math.abs(row[2] - row[1]) / row[1]);
   check(sampled.length > 0.9 * curve.length && Math.max(...off) < 0.5 && Math.max(...off) > 1e-3, 'amplitudes with samples beside the exact ones');
   check(specials.filter(row => row[0] === 'fold').length === 2, 'two folds: ' + specials.map(row => row[0]).join());

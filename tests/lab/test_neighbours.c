@@ -1,7 +1,6 @@
 /* test_neighbours.c - sampled solutions next to the exact curve's, at its omegas; where there is none that is said. */
-#include "interfaces/lab/lab.h"
 #include "numerics/base/status.h"
-#include "tests/check.h"
+#include "tests/lab/answer.h"
 
 enum { MOST_ROWS = 400, HARMONICS = 5, COEF = 2 * HARMONICS + 1 };
 
@@ -22,25 +21,34 @@ static lab *lab_of(double kn, int samples)
   return l;
 }
 
-static const double *row(const lab *l, int i) { return lab_values(l) + i * lab_columns(l); }
+typedef struct solution {
+  double omega, branch, amplitude, max, X[COEF];
+} solution;
 
-/* |a - b| over |b| of two solutions. */
-static double difference(const double *a, const double *b)
+static solution solution_at(const lab *l, int i)
+{
+  solution s = {number(l, i, "omega"), number(l, i, "branch"), number(l, i, "amplitude"), number(l, i, "max")};
+  memcpy(s.X, cell(l, i, "coefficients"), sizeof s.X);
+  return s;
+}
+
+/* |a - b| over |b|. */
+static double difference(solution a, solution b)
 {
   double off = 0, size = 0;
   for (int i = 0; i < COEF; ++i) {
-    off += pow(a[LAB_SOLUTION + i] - b[LAB_SOLUTION + i], 2);
-    size += pow(b[LAB_SOLUTION + i], 2);
+    off += pow(a.X[i] - b.X[i], 2);
+    size += pow(b.X[i], 2);
   }
   return sqrt(off / size);
 }
 
 /* Rows of the last answer, copied. */
-static int rows_of(const lab *l, double rows[MOST_ROWS][LAB_SOLUTION + COEF])
+static int rows_of(const lab *l, solution rows[MOST_ROWS])
 {
   assert_true(lab_rows(l) <= MOST_ROWS);
-  assert_int_equal(lab_columns(l), LAB_SOLUTION + COEF);
-  for (int i = 0; i < lab_rows(l); ++i) memcpy(rows[i], row(l, i), sizeof rows[i]);
+  assert_int_equal(lab_columns(l), lab_column(l, "coefficients") + COEF);
+  for (int i = 0; i < lab_rows(l); ++i) rows[i] = solution_at(l, i);
   return lab_rows(l);
 }
 
@@ -49,7 +57,7 @@ static int rows_of(const lab *l, double rows[MOST_ROWS][LAB_SOLUTION + COEF])
  * equations make 1e3 of it at most. Sampling moves the two that touch by 1e-4 and more: exact ones would be seen. */
 static void neighbours_solve_the_sampled_equations(CHECK_STATE)
 {
-  static double exact[MOST_ROWS][LAB_SOLUTION + COEF], near[MOST_ROWS][LAB_SOLUTION + COEF];
+  static solution exact[MOST_ROWS], near[MOST_ROWS];
   const double touches = 5 * sqrt(2); /* the clearance over sin 45 */
   lab *l = lab_of(1000, 64);
   int touching = 0;
@@ -62,10 +70,10 @@ static void neighbours_solve_the_sampled_equations(CHECK_STATE)
   assert_int_equal(lab_curve_at(l, LAB_SAMPLED, 8), HC_OK);
   for (int i = 0; i < 3; ++i) {
     double least = INFINITY;
-    for (int j = 0; j < lab_rows(l); ++j) least = fmin(least, difference(near[i], row(l, j)));
-    assert_true(near[i][LAB_OMEGA] == 8);
+    for (int j = 0; j < lab_rows(l); ++j) least = fmin(least, difference(near[i], solution_at(l, j)));
+    assert_true(near[i].omega == 8);
     CHECK_LE(least, 1e-10, "solution %d", i);
-    if (exact[i][LAB_MAX] < touches) continue;
+    if (exact[i].max < touches) continue;
     ++touching;
     CHECK_LE(1e-4, difference(near[i], exact[i]), "sampling moves solution %d", i);
   }
@@ -76,7 +84,7 @@ static void neighbours_solve_the_sampled_equations(CHECK_STATE)
 /* A row for each point, in order; what is measured is of samples. */
 static void every_point_has_its_row(CHECK_STATE)
 {
-  static double exact[MOST_ROWS][LAB_SOLUTION + COEF];
+  static solution exact[MOST_ROWS];
   lab *l = lab_of(1000, 64);
   assert_int_equal(lab_curve(l, LAB_EXACT), HC_OK);
   const int n = rows_of(l, exact);
@@ -84,8 +92,9 @@ static void every_point_has_its_row(CHECK_STATE)
   assert_int_equal(lab_neighbours(l), HC_OK);
   assert_int_equal(lab_rows(l), n);
   for (int i = 0; i < n; ++i) {
-    assert_true(row(l, i)[LAB_OMEGA] == exact[i][LAB_OMEGA] && row(l, i)[LAB_BRANCH] == exact[i][LAB_BRANCH]);
-    found += isfinite(row(l, i)[LAB_AMPLITUDE]);
+    const solution s = solution_at(l, i);
+    assert_true(s.omega == exact[i].omega && s.branch == exact[i].branch);
+    found += isfinite(s.amplitude);
   }
   assert_true(n > 40);
   CHECK_LE(0.9 * n, found, "of %d points", n);
@@ -95,7 +104,7 @@ static void every_point_has_its_row(CHECK_STATE)
 /* Newton circles from the exact solution (samples touch and leave by turns); the answer is on the sampled curve. */
 static void jumping_jacobians_are_got_round(CHECK_STATE)
 {
-  static double sampled[MOST_ROWS][LAB_SOLUTION + COEF];
+  static solution sampled[MOST_ROWS];
   lab *l = lab_of(5500, 64);
   assert_int_equal(lab_curve(l, LAB_SAMPLED), HC_OK);
   assert_int_equal(lab_curve_at(l, LAB_SAMPLED, 7), HC_OK);
@@ -103,25 +112,27 @@ static void jumping_jacobians_are_got_round(CHECK_STATE)
   assert_int_equal(lab_curve(l, LAB_EXACT), HC_OK);
   assert_int_equal(lab_neighbours_at(l, 7), HC_OK);
   assert_int_equal(lab_rows(l), 1);
-  CHECK_LE(difference(row(l, 0), sampled[0]), 1e-10, "residuals of 1e-13, as above");
+  CHECK_LE(difference(solution_at(l, 0), sampled[0]), 1e-10, "residuals of 1e-13, as above");
   lab_free(l);
 }
 
 /* Nearly rigid, and 16 samples: of some points Newton ends at another solution, and of some nowhere. */
 static void another_solution_is_no_neighbour(CHECK_STATE)
 {
-  static double exact[MOST_ROWS][LAB_SOLUTION + COEF];
+  static solution exact[MOST_ROWS];
   lab *l = lab_of(1e5, 16);
   int missing = 0;
   assert_int_equal(lab_curve(l, LAB_EXACT), HC_OK);
   const int n = rows_of(l, exact);
   assert_int_equal(lab_neighbours(l), HC_OK);
   for (int i = 0; i < n; ++i) {
-    const double *at = row(l, i);
-    missing += isnan(at[LAB_AMPLITUDE]);
-    if (!isnan(at[LAB_AMPLITUDE])) CHECK_LE(difference(at, exact[i]), 0.5, "point %d", i);
-    assert_true(at[LAB_OMEGA] == exact[i][LAB_OMEGA] && at[LAB_BRANCH] == exact[i][LAB_BRANCH]);
-    for (int c = LAB_AMPLITUDE; c < LAB_SOLUTION + COEF && isnan(at[LAB_AMPLITUDE]); ++c) assert_true(isnan(at[c]));
+    const solution s = solution_at(l, i);
+    int known = 0;
+    for (int c = 0; c < lab_columns(l); ++c) known += !isnan(row(l, i)[c]);
+    missing += isnan(s.amplitude);
+    if (!isnan(s.amplitude)) CHECK_LE(difference(s, exact[i]), 0.5, "point %d", i);
+    else assert_int_equal(known, 2);
+    assert_true(s.omega == exact[i].omega && s.branch == exact[i].branch);
   }
   assert_in_range(missing, 2, n / 2);
   lab_free(l);

@@ -2,10 +2,9 @@
 #include <float.h>
 
 #include "compare/first_guess.h"
-#include "compare/response.h"
-#include "interfaces/lab/lab.h"
+#include "compare/output/rows.h"
 #include "model/casefile/case_file.h"
-#include "tests/check.h"
+#include "tests/lab/answer.h"
 
 enum { MOST = 2 * HBM_MAX_HARMONICS + 1, CONTACT = 2 /* of a signal: th, x, then u, v, N, T */ };
 
@@ -26,14 +25,11 @@ static lab *lab_with_case(void)
   return l;
 }
 
-static const double *row(const lab *l, int i) { return lab_values(l) + i * lab_columns(l); }
-
 /* Row i becomes the lab's motion. */
 static void take(lab *l, int i)
 {
-  const double *at = row(l, i);
-  const int n_harm = (int)at[LAB_HARMONICS];
-  memcpy(lab_motion(l, n_harm), at + LAB_SOLUTION, (size_t)(2 * n_harm + 1) * sizeof *at);
+  const int n_harm = (int)number(l, i, "harmonics");
+  memcpy(lab_motion(l, n_harm), cell(l, i, "coefficients"), (size_t)(2 * n_harm + 1) * sizeof(double));
 }
 
 /* That of the curve's largest amplitude; returns its number. */
@@ -42,7 +38,7 @@ static int take_largest(lab *l)
   int largest = 0;
   assert_int_equal(lab_curve(l, LAB_EXACT), HC_OK);
   for (int i = 1; i < lab_rows(l); ++i)
-    if (row(l, i)[LAB_AMPLITUDE] > row(l, largest)[LAB_AMPLITUDE]) largest = i;
+    if (number(l, i, "amplitude") > number(l, largest, "amplitude")) largest = i;
   take(l, largest);
   return largest;
 }
@@ -132,12 +128,34 @@ static void questions_without_an_answer_are_refused(CHECK_STATE)
 
 /* ---- harmonic balance ---- */
 
+/* Row i of the table is *of: every column that other interfaces have, by name. */
+static void check_result(const lab *l, int i, rows_kind kind, const void *of)
+{
+  table_column columns[ROWS_MOST];
+  row_cell cells[ROWS_MOST];
+  const int n = rows_columns(kind, ROWS_IN_MEMORY, columns);
+  rows_cells(kind, of, ROWS_IN_MEMORY, cells);
+  for (int c = 0; c < n; ++c) {
+    const row_cell *expected = &cells[c];
+    const double *value = cell(l, i, columns[c].name);
+    assert_string_equal(lab_name(l, c), columns[c].name);
+    if (!expected->there) assert_true(isnan(*value));
+    else if (expected->kind == TABLE_TEXT) assert_string_equal(lab_word(l, (int)*value), expected->as.text);
+    else if (expected->kind == TABLE_INTEGER) assert_true(*value == (double)expected->as.integer);
+    else if (expected->kind == TABLE_REAL) assert_true(*value == expected->as.real);
+    else assert_memory_equal(value, expected->as.series.v, (size_t)expected->as.series.n * sizeof *value);
+  }
+  assert_null(lab_name(l, n));
+}
+
 static void curve_is_the_librarys(CHECK_STATE)
 {
   lab *l = lab_with_case();
   case_error err;
   hbm_curve curve = {0};
+  hbm_special *specials;
   response_row r;
+  int n_specials;
   CHECK_FILLED(scene, sc, case_parse("case", text, strlen(text), 0, NULL, &sc, &err));
   sc.hbm.force = HBM_FORCE_SAMPLED;
   CHECK_MADE(model, m, scene_model(&sc, &m));
@@ -145,13 +163,18 @@ static void curve_is_the_librarys(CHECK_STATE)
   assert_int_equal(hbm_trace(s, sc.omega_from, sc.omega_to, NULL, &curve), HC_OK);
   assert_int_equal(lab_curve(l, LAB_SAMPLED), HC_OK);
   assert_int_equal(lab_rows(l), curve.n);
-  assert_int_equal(lab_columns(l), LAB_SOLUTION + curve.n_coef);
+  assert_int_equal(lab_columns(l), lab_column(l, "coefficients") + curve.n_coef);
   for (int k = 0; k < curve.n; ++k) {
     assert_int_equal(response_row_of(s, &curve, k, &r), HC_OK);
-    assert_true(row(l, k)[LAB_OMEGA] == r.point.omega && row(l, k)[LAB_AMPLITUDE] == r.measures.amplitude);
-    assert_true(row(l, k)[LAB_MULTIPLIER] == r.stability.multiplier);
-    assert_memory_equal(row(l, k) + LAB_SOLUTION, hbm_curve_X(&curve, k), (size_t)curve.n_coef * sizeof(double));
+    r.series = hbm_curve_X(&curve, k);
+    check_result(l, k, ROWS_FRF, &r);
   }
+  assert_int_equal(hbm_specials(s, &curve, &specials, &n_specials), HC_OK);
+  assert_int_equal(lab_specials(l, LAB_SAMPLED), HC_OK);
+  assert_int_equal(lab_rows(l), n_specials);
+  for (int i = 0; i < n_specials; ++i) check_result(l, i, ROWS_SPECIALS, &specials[i]);
+  assert_true(n_specials > 0);
+  free(specials);
   hbm_curve_free(&curve);
   hbm_solver_free(s);
   model_free(m);
@@ -164,11 +187,11 @@ static void solutions_at_an_omega_lie_there(CHECK_STATE)
   assert_int_equal(lab_curve(l, LAB_EXACT), HC_OK);
   assert_int_equal(lab_curve_at(l, LAB_EXACT, 8), HC_OK);
   assert_int_equal(lab_rows(l), 3); /* two stable ones, an unstable one between them */
-  for (int i = 0; i < 3; ++i) assert_true(row(l, i)[LAB_OMEGA] == 8);
-  assert_true(row(l, 0)[LAB_STABLE] == 1 && row(l, 1)[LAB_STABLE] == -1 && row(l, 2)[LAB_STABLE] == 1);
+  for (int i = 0; i < 3; ++i) assert_true(number(l, i, "omega") == 8);
+  assert_true(says(l, 0, "stable", "yes") && says(l, 1, "stable", "no") && says(l, 2, "stable", "yes"));
   assert_int_equal(lab_specials(l, LAB_EXACT), HC_OK);
   int turning_points = 0;
-  for (int i = 0; i < lab_rows(l); ++i) turning_points += row(l, i)[3] == HBM_TURNING_POINT;
+  for (int i = 0; i < lab_rows(l); ++i) turning_points += says(l, i, "kind", "turning point");
   assert_int_equal(turning_points, 2);
   lab_free(l);
 }
@@ -223,7 +246,7 @@ static void motion_is_the_curves(CHECK_STATE)
   lab *l = lab_with_case();
   const int k = take_largest(l);
   double max = -INFINITY;
-  const double expected = row(l, k)[LAB_MAX];
+  const double expected = number(l, k, "max");
   assert_int_equal(lab_signal(l, LAB_EXACT, 4096), HC_OK);
   for (int i = 0; i < lab_rows(l); ++i) max = larger(max, row(l, i)[1]);
   CHECK_LE(fabs(max - expected), 1e-5 * expected, "the largest x");
@@ -243,12 +266,12 @@ static const char of_laws[] = "oscillator: {mass: 1, damping: 0.1, stiffness: 1}
 static const char stops[] = "  - {law: table, points: [[-1, -2.5], [-0.5, 0], [0.25, 0], [1, 3]]}\n";
 
 /* With a table or not; its largest motion is the lab's. */
-static lab *lab_with_laws(bool table)
+static lab *lab_with_laws(bool has_table)
 {
   char of[1024];
   lab *l = lab_new();
   assert_non_null(l);
-  snprintf(of, sizeof of, of_laws, table ? stops : "");
+  snprintf(of, sizeof of, of_laws, has_table ? stops : "");
   if (lab_read(l, of) != HC_OK) fail_msg("%s", lab_message(l));
   take_largest(l);
   return l;
@@ -308,17 +331,17 @@ static void enough_samples_are_exact_for_a_polynomial(CHECK_STATE)
 static void laws_have_transients_and_errors(CHECK_STATE)
 {
   const double omega[] = {1.6};
-  for (int table = 0; table < 2; ++table) {
-    lab *l = lab_with_laws(table);
+  for (int has_table = 0; has_table < 2; ++has_table) {
+    lab *l = lab_with_laws(has_table);
     assert_int_equal(lab_curve_at(l, LAB_EXACT, *omega), HC_OK);
-    const double hbm = row(l, 0)[LAB_AMPLITUDE];
+    const double hbm = number(l, 0, "amplitude");
     take(l, 0);
     assert_int_equal(lab_errors(l, *omega), HC_OK);
     assert_int_equal(lab_rows(l), 4);
-    CHECK_LE(row(l, 2)[4], 0.1 * row(l, 0)[4], "H = 9 and 3, table %d", table);
-    if (!table) CHECK_LE(fabs(row(l, 3)[3] - row(l, 2)[3]), 1e-10 * hbm, "37 samples are exact");
+    CHECK_LE(row(l, 2)[4], 0.1 * row(l, 0)[4], "H = 9 and 3, table %d", has_table);
+    if (!has_table) CHECK_LE(fabs(row(l, 3)[3] - row(l, 2)[3]), 1e-10 * hbm, "37 samples are exact");
     assert_int_equal(lab_transients(l, 1, omega), HC_OK);
-    assert_int_equal((int)row(l, 0)[1], HC_OK);
+    assert_true(says(l, 0, "status", "ok"));
     lab_free(l);
   }
 }
@@ -361,14 +384,14 @@ static void transients_are_steady(CHECK_STATE)
   lab *l = lab_with_case();
   assert_int_equal(lab_curve(l, LAB_EXACT), HC_OK);
   assert_int_equal(lab_curve_at(l, LAB_EXACT, omega[0]), HC_OK);
-  const double hbm = row(l, 0)[LAB_AMPLITUDE];
+  const double hbm = number(l, 0, "amplitude");
   assert_int_equal(lab_transients(l, 1, omega), HC_OK);
   assert_int_equal(lab_rows(l), 1);
-  assert_int_equal((int)row(l, 0)[1], HC_OK);
-  CHECK_LE(fabs(row(l, 0)[2] - hbm), 1e-2 * hbm, "H = 5 against the closed form");
+  assert_true(says(l, 0, "status", "ok") && says(l, 0, "verdict", "settled") && says(l, 0, "stable", "yes"));
+  CHECK_LE(fabs(number(l, 0, "amplitude") - hbm), 1e-2 * hbm, "H = 5 against the closed form");
   double max = -INFINITY;
-  for (int i = 13; i < lab_columns(l); ++i) max = larger(max, row(l, 0)[i]);
-  CHECK_LE(fabs(max - row(l, 0)[3]), 1e-3 * max, "the largest of the wave");
+  for (const double *x = cell(l, 0, "wave"); x < row(l, 1); ++x) max = larger(max, *x);
+  CHECK_LE(fabs(max - number(l, 0, "max")), 1e-3 * max, "the largest of the wave");
   lab_free(l);
 }
 

@@ -2,7 +2,7 @@
  * of 21. Prints; fails where an answer does. */
 'use strict';
 const fs = require('fs'), path = require('path');
-const {labClient, labForce, labColumn} = require(path.join(__dirname, '../../interfaces/lab/lab_client.js'));
+const {labClient, labForce} = require(path.join(__dirname, '../../interfaces/lab/lab_client.js'));
 
 const clock = () => {
   const {user, system} = process.cpuUsage();
@@ -31,15 +31,14 @@ async function main() {
   show('module ready', ready);
   show('curve exact', median(() => lab.curve(labForce.exact)));
   show('curve sampled', median(() => lab.curve(labForce.sampled)));
-  const curve = lab.curve(labForce.exact), k = Math.floor(curve.rows / 2);
-  const middle = curve.values.slice(k * curve.columns, (k + 1) * curve.columns);
+  const curve = lab.curve(labForce.exact), middle = curve.list[Math.floor(curve.rows / 2)];
   console.log(`${curve.rows} points`);
-  lab.motion(middle.subarray(labColumn.solution, labColumn.solution + 2 * middle[labColumn.harmonics] + 1));
+  lab.motion(middle.coefficients);
   show('specials', median(() => lab.specials(labForce.exact)));
   show('signal', median(() => lab.signal(labForce.exact, 512)));
   show('spectrum', median(() => lab.spectrum(64, 100)));
   show('work', median(() => lab.work()));
-  show('errors', median(() => lab.errors(middle[labColumn.omega])));
+  show('errors', median(() => lab.errors(middle.omega)));
   show('5 transients', median(() => lab.transients([5, 6, 7, 8, 9])));
 }
 main();

@@ -1,17 +1,13 @@
 /* draw_curve.js - section 2: response curves, special points, transients, and omega to be dragged along. */
 'use strict';
 
-const regimes = ['linear', 'stick', 'slip', 'separation', 'smooth'];
-
 /* Rows of a curve as runs of one stability: [{stable, points}], neighbours share a point. */
 function runsOf(curve) {
   const runs = [];
-  for (let i = 0; i < curve.rows; ++i) {
-    const row = curve.values.subarray(i * curve.columns), point = [row[labColumn.omega], row[labColumn.amplitude]];
-    const stable = row[labColumn.stable] >= 0, last = runs[runs.length - 1];
-    if (last && last.branch === row[labColumn.branch]) last.points.push(point);
-    if (!last || last.branch !== row[labColumn.branch] || last.stable !== stable)
-      runs.push({stable, branch: row[labColumn.branch], points: [point]});
+  for (const {omega, amplitude, branch, stable: verdict} of curve.list) {
+    const stable = verdict !== 'no', last = runs[runs.length - 1];
+    if (last && last.branch === branch) last.points.push([omega, amplitude]);
+    if (!last || last.branch !== branch || last.stable !== stable) runs.push({stable, branch, points: [[omega, amplitude]]});
   }
   return runs;
 }
@@ -19,22 +15,16 @@ function runsOf(curve) {
 const curveLines = (p, curve, classes) =>
   runsOf(curve).map(run => lineOf(p, run.points, classes + (run.stable ? '' : ' unstable'))).join('');
 
-/* Points of hbm_special_kind: folds, other stability limits, contact changes. */
+/* Folds, other stability limits, contact changes. */
 function specialMarks(p, specials, only) {
-  const points = kinds => Array.from({length: specials.rows}, (_, i) => specials.values.subarray(6 * i, 6 * i + 6))
-    .filter(row => kinds.includes(row[3])).map(row => [row[0], row[1]]);
-  const folds = marksOf(p, points([0]), 'diamond', only ? 3 : 5, only ? 'fill-sampled' : 'fill-folded');
-  return only ? folds : marksOf(p, points([2]), 'tick', 6, 'tick') + marksOf(p, points([1, 3]), 'square', 4, 'fill-other') + folds;
+  const points = (...kinds) => specials.list.filter(row => kinds.includes(row.kind)).map(row => [row.omega, row.amplitude]);
+  const folds = marksOf(p, points('turning point'), 'diamond', only ? 3 : 5, only ? 'fill-sampled' : 'fill-folded');
+  return only ? folds : marksOf(p, points('contact change'), 'tick', 6, 'tick') +
+    marksOf(p, points('period doubling', 'Neimark-Sacker'), 'square', 4, 'fill-other') + folds;
 }
 
-function transientMarks(p, transients) {
-  const points = [];
-  for (let i = 0; i < transients.rows; ++i) {
-    const row = transients.values.subarray(i * transients.columns);
-    if (row[1] === 0) points.push([row[0], row[2]]);
-  }
-  return marksOf(p, points, 'cross', 4, 'cross');
-}
+const transientMarks = (p, transients) =>
+  marksOf(p, transients.list.filter(row => row.status === 'ok').map(row => [row.omega, row.amplitude]), 'cross', 4, 'cross');
 
 /* Sampled curves drawn: the whole one; where it is not there, or ends early, the one next to the exact one, too; else that
  * of a case before. */
@@ -46,7 +36,7 @@ function samplesShown(seen, text) {
 
 /* Amplitudes shown: all of the exact curve, and of the sampled one what does not shrink that to a line. */
 function amplitudesOf(seen, samples) {
-  const largest = table => (table ? columnOf(table, labColumn.amplitude).reduce((a, b) => (b > a ? b : a), 0) : 0);
+  const largest = table => (table ? table.list.reduce((most, row) => (row.amplitude > most ? row.amplitude : most), 0) : 0);
   const exact = largest(seen.exact && seen.exact.curve), sampled = Math.max(0, ...samples.map(one => largest(one.curve)));
   return 1.06 * (exact ? Math.max(exact, Math.min(sampled, 1.6 * exact)) : sampled) || 1;
 }
@@ -77,7 +67,7 @@ function drawCurve(svg, state, seen, text) {
 
 function solutionMarks(p, motion) {
   if (!motion || !motion.solutions) return '';
-  const point = row => [motion.omega, row[labColumn.amplitude]];
+  const point = row => [motion.omega, row.amplitude];
   const others = motion.solutions.filter((row, i) => i !== motion.chosen).map(point);
   const chosen = motion.solutions.slice(motion.chosen, motion.chosen + 1).map(point);
   return marksOf(p, others, 'dot', 4, 'hollow') + marksOf(p, motion.chosen < 0 ? [] : chosen, 'dot', 6, 'fill-exact');

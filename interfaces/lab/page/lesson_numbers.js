@@ -27,15 +27,10 @@ function lessonMotion(lab, state, compare) {
   const read = lab.read(caseText(state) + (compare || ''));
   if (read.status !== 0) throw new Error(read.message);
   lab.curve(labForce.exact);
-  const at = lab.curveAt(labForce.exact, state.omega);
-  let best = null;
-  for (let i = 0; i < at.rows; ++i) {
-    const row = at.values.slice(i * at.columns, (i + 1) * at.columns);
-    if (!best || row[labColumn.amplitude] > best[labColumn.amplitude]) best = row;
-  }
+  const best = lab.curveAt(labForce.exact, state.omega).list.reduce((a, b) => (a && a.amplitude >= b.amplitude ? a : b), null);
   if (!best) throw new Error('no solution at omega ' + state.omega);
-  lab.motion(best.slice(labColumn.solution, labColumn.solution + 2 * best[labColumn.harmonics] + 1));
-  return best[labColumn.amplitude];
+  lab.motion(best.coefficients);
+  return best.amplitude;
 }
 
 /* Instants out of n at which the contact is pressed, of the lab's motion. */

@@ -143,14 +143,14 @@ function draw() {
   drawLesson();
 }
 
-const countFound = curve => columnOf(curve, labColumn.amplitude).filter(isFinite).length;
-const countKind = (specials, kind) => (specials ? columnOf(specials, 3).filter(k => k === kind).length : NaN);
+const countFound = curve => curve.list.filter(row => isFinite(row.amplitude)).length;
+const countFolds = specials => (specials ? specials.list.filter(row => row.kind === 'turning point').length : NaN);
 
 function drawResponse() {
   curvePanel = drawCurve($('draw-curve'), state, seen, textNow());
   const slider = $('draw-curve'), motion = seen.motion;
   const chosen = motion && motion.solutions && motion.solutions[motion.chosen];
-  const amplitude = chosen ? `, amplitude ${show(chosen[labColumn.amplitude])}` : '';
+  const amplitude = chosen ? `, amplitude ${show(chosen.amplitude)}` : '';
   slider.setAttribute('aria-valuemin', Math.min(state.from, state.to));
   slider.setAttribute('aria-valuemax', Math.max(state.from, state.to));
   slider.setAttribute('aria-valuenow', state.omega);
@@ -161,7 +161,7 @@ function drawResponse() {
   $('proven-badge').hidden = !$('proven-words').textContent;
   $('go-proven').hidden = provenOmega(state) === state.omega;
   const row = (name, of, table, ms) => `<tr><td>${name}</td><td>${of && table ? table.rows : '-'}</td>` +
-    `<td>${show(countKind(of && of.specials, 0))}</td><td>${show(ms, 3)}</td></tr>`;
+    `<td>${show(countFolds(of && of.specials))}</td><td>${show(ms, 3)}</td></tr>`;
   const {exact, errors} = seen, sampled = current(seen.sampled), neighbours = current(seen.neighbours);
   $('cost').tBodies[0].innerHTML = [
     row('curve, exact forces', exact, exact && exact.curve, exact && exact.curve.ms),
@@ -191,7 +191,7 @@ function curveWords() {
   if (!sampled) words.push('With samples, the solutions next to the exact ones are drawn; the whole curve, with what else it may have, is on its way.');
   if (exact.curve.status !== 0) words.push(`The exact curve ends early: ${exact.curve.message}.`);
   if (sampled && sampled.curve.status !== 0) words.push(`The sampled curve ends early: ${sampled.curve.message}. Beyond, the solutions next to the exact ones are drawn.`);
-  const [a, b] = [exact, sampled].map(one => countKind(one && one.specials, 0));
+  const [a, b] = [exact, sampled].map(one => countFolds(one && one.specials));
   if (b > a) words.push(`The sampled curve has ${b} folds, the exact one ${a}: the others are of the samples, not of the oscillator.`);
   if (motion && motion.chosen < 0) words.push(`No solution at omega = ${show(motion.omega)}.`);
   return words.join(' ');
@@ -213,7 +213,7 @@ function drawMotion() {
   if (motion && motion.chosen >= 0) say(motion.message ? motion.message : statusWords(motion), motion.message ? 'open' : '');
 }
 
-const solutionName = row => `amplitude ${show(row[labColumn.amplitude])}, ${row[labColumn.stable] > 0 ? 'stable' : row[labColumn.stable] < 0 ? 'unstable' : 'stability unknown'}`;
+const solutionName = row => `amplitude ${show(row.amplitude)}, ${{yes: 'stable', no: 'unstable'}[row.stable] || 'stability unknown'}`;
 
 const statusWords = motion => `At omega = ${show(motion.omega)}: ${motion.solutions.length === 1 ? 'one solution' : motion.solutions.length + ' solutions'}; ` +
   `shown is the one of ${solutionName(motion.solutions[motion.chosen])}.`;
@@ -222,8 +222,8 @@ function motionWords(motion) {
   if (!motion || motion.chosen < 0) return whyNothing(motion);
   const row = motion.solutions[motion.chosen];
   return `${state.sampled ? `Solved with ${state.N} samples` : 'Solved with exact forces'}, H = ${state.H}, omega = ${show(motion.omega)}: ` +
-    `amplitude ${show(row[labColumn.amplitude], 6)}, mean ${show(row[labColumn.mean], 4)}, largest Floquet multiplier ${show(row[labColumn.multiplier], 4)}; ` +
-    `the strongest that happens at a contact: ${regimes[row[labColumn.contact]]}.`;
+    `amplitude ${show(row.amplitude, 6)}, mean ${show(row.mean, 4)}, largest Floquet multiplier ${show(row.multiplier, 4)}; ` +
+    `the strongest that happens at a contact: ${row.contact}.`;
 }
 
 function showSolutions(motion) {
@@ -317,8 +317,8 @@ function showMistake(message) {
 function otherSolution(direction) {
   const {motion} = seen;
   if (!motion || motion.chosen < 0) return;
-  const list = motion.solutions.map(row => row[labColumn.amplitude]).sort((a, b) => a - b);
-  const at = list.indexOf(motion.solutions[motion.chosen][labColumn.amplitude]) + direction;
+  const list = motion.solutions.map(row => row.amplitude).sort((a, b) => a - b);
+  const at = list.indexOf(motion.solutions[motion.chosen].amplitude) + direction;
   if (at >= 0 && at < list.length) alter(s => (s.near = list[at]), false);
 }
 
@@ -328,7 +328,7 @@ function moveOmega(steps) {
   const step = Math.abs(state.to - state.from) / 400;
   alter(s => {
     s.omega = +(s.omega + steps * step).toPrecision(6);
-    if (chosen) s.near = chosen[labColumn.amplitude];
+    if (chosen) s.near = chosen.amplitude;
   }, false);
 }
 
@@ -353,7 +353,7 @@ function startControls() {
   $('omega').addEventListener('input', () => Number($('omega').value) > 0 && alter(s => (s.omega = Number($('omega').value)), false));
   $('go-proven').addEventListener('click', () => alter(s => (s.omega = provenOmega(s)), false));
   $('omega').addEventListener('blur', () => mark('curve')); /* it may lie outside the sweep */
-  $('solution').addEventListener('change', () => alter(s => (s.near = seen.motion.solutions[$('solution').selectedIndex][labColumn.amplitude]), false));
+  $('solution').addEventListener('change', () => alter(s => (s.near = seen.motion.solutions[$('solution').selectedIndex].amplitude), false));
   $('look').addEventListener('change', () => alter(s => (s.look = Number($('look').value)), false));
   $('harmonic').addEventListener('input', () => {
     const h = Number($('harmonic').value);

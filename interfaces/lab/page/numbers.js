@@ -3,31 +3,28 @@
 'use strict';
 
 const shownInTable = 32; /* instants of a period */
-const specialNames = ['fold', 'period doubling', 'contact changes', 'Neimark-Sacker', 'symmetry breaking'];
-const stableName = v => (v > 0 ? 'yes' : v < 0 ? 'no' : 'unknown');
 const cellsOf = list => '<tr>' + list.map(cell => `<td>${cell}</td>`).join('') + '</tr>';
 
-/* Rows of the exact curve, each with the sampled solution next to it where neighbours, of the same case, has one. */
-function curveRows(exact, neighbours) {
-  if (!exact) return '';
-  const {rows, columns, values} = exact.curve;
-  const amplitude = i => (neighbours && neighbours.text === exact.text && i < neighbours.curve.rows ?
-    neighbours.curve.values[i * neighbours.curve.columns + labColumn.amplitude] : NaN);
-  return Array.from({length: rows}, (_, i) => {
-    const row = values.subarray(i * columns, (i + 1) * columns);
-    return cellsOf([show(row[labColumn.omega], 6), show(row[labColumn.amplitude], 6), show(amplitude(i), 6), stableName(row[labColumn.stable]),
-      show(row[labColumn.multiplier], 4), regimes[row[labColumn.contact]]]);
-  }).join('');
+/* Head and body of a table of results: the columns `first` {name: its head}, then all others that rows have, by name; no series. */
+function tableOfResults(rows, first) {
+  const others = Object.keys(rows[0] || {}).filter(name => !(name in first) && !ArrayBuffer.isView(rows[0][name]));
+  const names = Object.keys(first).concat(others), cell = v => (typeof v === 'string' ? plain(v) : show(v, 6));
+  return {head: '<tr>' + names.map(name => `<th scope="col">${first[name] || name}</th>`).join('') + '</tr>',
+    body: rows.map(row => cellsOf(names.map(name => cell(row[name])))).join('')};
+}
+
+/* Points of the exact curve, each with the sampled solution next to it where neighbours, of the same case, has one. */
+function curveTable(exact, neighbours) {
+  const beside = exact && neighbours && neighbours.text === exact.text ? neighbours.curve.list : [];
+  const rows = exact ? exact.curve.list.map((row, i) => Object.assign({sampled: (beside[i] || {}).amplitude}, row)) : [];
+  return tableOfResults(rows, {omega: 'omega', amplitude: 'amplitude, exact', sampled: 'with N samples', stable: 'stable',
+    multiplier: 'largest multiplier', contact: 'strongest at a contact'});
 }
 
 /* Special points of the exact curve. */
-function specialRows(exact) {
-  if (!exact || !exact.specials) return '';
-  const {rows, columns, values} = exact.specials;
-  return Array.from({length: rows}, (_, i) => {
-    const [omega, amplitude, , kind, before, after] = values.subarray(i * columns, (i + 1) * columns);
-    return cellsOf([specialNames[kind], show(omega, 6), show(amplitude, 6), regimes[before], regimes[after]]);
-  }).join('');
+function specialTable(exact) {
+  const rows = exact && exact.specials ? exact.specials.list.map(row => Object.assign({}, row, {kind: row.kind.replace('turning point', 'fold')})) : [];
+  return tableOfResults(rows, {kind: 'what', omega: 'omega', amplitude: 'amplitude', before: 'contact before', after: 'after'});
 }
 
 /* Some instants of the motion: x, and of the contact looked at u, N and T by the exact law. */
@@ -41,15 +38,17 @@ function motionRows(state, motion) {
   }).join('');
 }
 
-/* rows() into the table's body where the details around it are open. */
-function fillOpen(table, rows) {
-  const body = $(table).tBodies[0];
-  if ($(table).closest('details').open) body.innerHTML = rows();
+/* content() into the table where the details around it are open; head: where it is not the page's. */
+function fillOpen(table, content) {
+  if (!$(table).closest('details').open) return;
+  const {head, body} = content();
+  if (head) $(table).tHead.innerHTML = head;
+  $(table).tBodies[0].innerHTML = body;
 }
 
 function drawCurveNumbers(seen) {
-  fillOpen('curve-table', () => curveRows(seen.exact, seen.neighbours));
-  fillOpen('special-table', () => specialRows(seen.exact));
+  fillOpen('curve-table', () => curveTable(seen.exact, seen.neighbours));
+  fillOpen('special-table', () => specialTable(seen.exact));
 }
 
-const drawMotionNumbers = (state, motion) => fillOpen('motion-table', () => motionRows(state, motion));
+const drawMotionNumbers = (state, motion) => fillOpen('motion-table', () => ({body: motionRows(state, motion)}));

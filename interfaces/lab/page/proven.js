@@ -35,7 +35,7 @@ function provenWords(state, motion) {
   if (isNaN(omega)) return '';
   const list = there.map(orbit => `${show(orbit.amplitude, 8)} (${orbit.stable})`).join(', ');
   const row = omega === state.omega && motion && motion.omega === omega && motion.solutions && motion.solutions[motion.chosen];
-  const off = row ? Math.min(...there.map(orbit => Math.abs(row[labColumn.amplitude] / orbit.amplitude - 1))) : NaN;
+  const off = row ? Math.min(...there.map(orbit => Math.abs(row.amplitude / orbit.amplitude - 1))) : NaN;
   return `Proven at omega = ${show(omega, 6)}: the equation of motion has a periodic orbit of amplitude ${list}.` +
     (isFinite(off) ? ` The solution shown is ${percent(off)} off.` : '');
 }

@@ -42,23 +42,20 @@ function followSamples(job) {
   say(job, 'neighbours', {text: job.text, curve: known.neighbours});
 }
 
-const rowOf = (table, i) => table.values.slice(i * table.columns, (i + 1) * table.columns);
-const solutionOf = row => row.slice(labColumn.solution, labColumn.solution + 2 * row[labColumn.harmonics] + 1);
-
 /* The number of the row whose amplitude is next to `near`; Infinity: of the largest. */
 function nearest(rows, near) {
-  const off = row => (near === Infinity ? -row[labColumn.amplitude] : Math.abs(row[labColumn.amplitude] - near));
+  const off = row => (near === Infinity ? -row.amplitude : Math.abs(row.amplitude - near));
   return rows.reduce((best, row, i) => (best < 0 || off(row) < off(rows[best]) ? i : best), -1);
 }
 
 function describeMotion(job) {
   const from = performance.now();
   const at = job.neighbour ? lab.neighboursAt(job.omega) : lab.curveAt(job.force, job.omega);
-  const solutions = Array.from({length: at.rows}, (_, i) => rowOf(at, i)).filter(row => isFinite(row[labColumn.amplitude]));
+  const solutions = at.list.filter(row => isFinite(row.amplitude));
   const chosen = nearest(solutions, job.near);
   const common = {omega: job.omega, solutions, chosen, neighbour: job.neighbour};
   if (chosen < 0) return say(job, 'motion', Object.assign(common, {message: at.message}));
-  lab.motion(solutionOf(solutions[chosen]));
+  lab.motion(solutions[chosen].coefficients);
   const exact = lab.signal(labForce.exact, shownInstants), samples = lab.signal(labForce.sampled, job.samples);
   const spectrum = lab.spectrum(job.samples, job.shown), work = lab.work();
   const message = [exact, samples, spectrum, work].map(answer => answer.message).find(text => text) || '';
@@ -73,10 +70,8 @@ function sayMore(job) {
 
 /* Omegas over the curve: where something goes on it has more points. */
 function transientOmegas() {
-  const {rows, columns, values} = known.curve, omegas = [];
-  for (let i = 0; i < rows; ++i) omegas.push(values[i * columns + labColumn.omega]);
-  omegas.sort((a, b) => a - b);
-  const at = Array.from({length: transientPoints}, (_, i) => omegas[Math.round(((rows - 1) * i) / (transientPoints - 1))]);
+  const omegas = known.curve.list.map(row => row.omega).sort((a, b) => a - b);
+  const at = Array.from({length: transientPoints}, (_, i) => omegas[Math.round(((omegas.length - 1) * i) / (transientPoints - 1))]);
   return at.filter((omega, i) => omega !== at[i - 1]);
 }
 
@@ -105,11 +100,9 @@ async function answer(job) {
 
 /* Of the solution at omega, the exact one even where the sampled one is shown. */
 function tellErrors(job) {
-  const at = lab.curveAt(labForce.exact, job.omega);
-  const solutions = Array.from({length: at.rows}, (_, i) => rowOf(at, i));
-  const chosen = nearest(solutions, job.near);
+  const at = lab.curveAt(labForce.exact, job.omega), chosen = nearest(at.list, job.near);
   if (chosen < 0) return say(job, 'errors', {omega: job.omega, errors: at});
-  lab.motion(solutionOf(solutions[chosen]));
+  lab.motion(at.list[chosen].coefficients);
   say(job, 'errors', {omega: job.omega, errors: timed(() => lab.errors(job.omega))});
 }
 
