@@ -22,7 +22,9 @@ enum {
   MOST_CONFIRMED = 12 /* orbits that locate an end */
 };
 
-static const double first_step = 0.25, longest_step = 1, least_step = 1e-5, corner_step = 1e-2; /* [slip length] */
+static const double first_step = 0.25, longest_step = 1, least_step = 1e-5, corner_step = 1e-2,
+                    plane_step = 0.05;  /* [slip length] */
+static const double little_gain = 0.01; /* [band] of a line along the gradient: the last one */
 /* [metric] A step that moves contacts by more, and by more than three times what was predicted, is to another solution:
  * a fifth of a motion is far for a quarter of a slip length. */
 static const double near_enough = 0.2;
@@ -186,11 +188,25 @@ static void swap_members(member *a, member *b)
 
 /* ---- one member ---------------------------------------------------------------------------------- */
 
+/* Amplitude of response r of X, where not NULL, and its rate as X moves along dX. */
+static hc_status differentiate(band_search *b, const double *X, const double *dX, int r, double *A, double *rate)
+{
+  const int n_harm = hbm_n_harmonics(b->s);
+  double max, min;
+  hc_status st = hbm_response(b->s, b->omega, X, r, b->x);
+  for (int i = 0; i < b->n_coef; ++i) b->moved[i] = X[i] + dX[i];
+  if (st == HC_OK) st = hbm_response(b->s, b->omega, b->moved, r, b->dx);
+  for (int i = 0; i < 2 * n_harm + 1; ++i) b->dx[i] -= b->x[i];
+  series_extrema(n_harm, b->x, &max, &min);
+  if (A) *A = 0.5 * (max - min);
+  *rate = series_amplitude_rate(n_harm, b->x, b->dx);
+  return st;
+}
+
 /* What there is to know of m->X, which hbm_solve has just found: its sliders, amplitudes, and rates along the line. */
 static hc_status look_at(band_search *b, member *m)
 {
   hbm_solver *s = b->s;
-  const int n_harm = hbm_n_harmonics(s);
   hbm_measures measures;
   hc_status st = hbm_free_sliders(s, m->X, m->w, m->free);
   if (st == HC_OK) st = hbm_measure(s, m->X, &measures);
@@ -204,16 +220,8 @@ static hc_status look_at(band_search *b, member *m)
     st = hbm_rest_tangent(s, j, b->moved);
     for (int i = 0; i < b->n_coef; ++i) m->along[i] += b->direction[j] * b->moved[i];
   }
-  for (int i = 0; i < b->n_coef; ++i) b->moved[i] = m->X[i] + m->along[i];
-  for (int r = 0; r < b->n_responses && st == HC_OK; ++r) {
-    double max, min;
-    st = hbm_response(s, b->omega, m->X, r, b->x);
-    if (st == HC_OK) st = hbm_response(s, b->omega, b->moved, r, b->dx);
-    for (int i = 0; i < 2 * n_harm + 1; ++i) b->dx[i] -= b->x[i];
-    series_extrema(n_harm, b->x, &max, &min);
-    m->A[r] = 0.5 * (max - min);
-    m->rate[r] = series_amplitude_rate(n_harm, b->x, b->dx);
-  }
+  for (int r = 0; r < b->n_responses && st == HC_OK; ++r)
+    st = differentiate(b, m->X, m->along, r, &m->A[r], &m->rate[r]);
   return st;
 }
 
@@ -321,11 +329,21 @@ static bool same_set(const band_search *b, const member *m, const member *n)
   return m->linear == n->linear && !memcmp(m->free, n->free, (size_t)b->n_contacts * sizeof *m->free);
 }
 
+/* Does a slider of two tangents move? One that is asked beyond its limit does not rest at the limit but farther in
+ * (planar_rest.h), so that ends are approached in short steps. */
+static bool moves_in_plane(const band_search *b)
+{
+  bool any = false;
+  for (int j = 0; j < b->n_contacts; ++j) any |= b->direction[j] != 0 && b->model->contacts[j].circle;
+  return any;
+}
+
 /* From *start along b->direction to its end, where its sliders cannot be moved on, or slip. Where other sliders begin
  * or cease to be free amplitudes have a corner, next to which an extremum may lie: it is passed in a short step. r,
  * high: only as long as that amplitude grows or falls; r < 0: all the way. */
 static hc_status follow(band_search *b, const member *start, int r, bool high)
 {
+  const bool in_plane = moves_in_plane(b);
   double step = first_step, corner = INFINITY; /* no farther away than this */
   copy_member(b, start, &b->here);
   b->here.step = 0;
@@ -339,14 +357,14 @@ static hc_status follow(band_search *b, const member *start, int r, bool high)
       st = step < least_step ? st : HC_OK;
       continue;
     }
-    const bool passed = !same_set(b, &b->here, &b->next);
+    const double moved = part_moved(b, &b->here, &b->next, step), sign = high ? 1 : -1;
+    const bool passed = !same_set(b, &b->here, &b->next) || (in_plane && moved < 0.999);
     take(b, &b->next);
-    if (passed && step > corner_step) {
+    if (passed && step > (in_plane ? plane_step : corner_step)) {
       corner = step;
-      step *= 0.5;
+      step *= in_plane ? 0.25 : 0.5;
       continue;
     }
-    const double moved = part_moved(b, &b->here, &b->next, step), sign = high ? 1 : -1;
     if (moved > 1e-6 && (st = locate_all(b, &b->here, &b->next)) != HC_OK) return st;
     if (r >= 0 && !(sign * b->next.rate[r] > 0 && sign * (b->next.A[r] - b->here.A[r]) > 0)) return HC_OK;
     if (moved < 0.999) return HC_OK; /* at the limit, or none of them is free any more */
@@ -374,35 +392,47 @@ static hc_status follow_set(band_search *b, const member *from)
   return st;
 }
 
-/* b->direction: by which amplitude r of *m grows fastest, or falls, of length 1 in slip lengths. False: by none. */
-static bool climb_direction(band_search *b, const member *m, int r, bool high, hc_status *st)
+/* Is slider j of *m at its limit, beyond which `to` (> 0: larger w) leads? */
+static bool is_held(const band_search *b, const member *m, int j, double to)
+{
+  const double beyond = m->asked[j] - m->w[j];
+  return fabs(beyond) > 1e-9 * b->size[j] && beyond * to > 0;
+}
+
+/* b->direction: by which amplitude r of *m, from now on b->origin, grows fastest, or falls, of length 1 in slip lengths:
+ * a back-substitution a slider. *found: there is one. */
+static hc_status climb_direction(band_search *b, const member *m, int r, bool high, bool *found)
 {
   double length = 0;
-  copy_member(b, m, &b->origin);
-  memset(b->gradient, 0, (size_t)b->n_contacts * sizeof *b->gradient);
-  for (int j = 0; j < b->n_contacts && *st == HC_OK; ++j) {
-    memset(b->direction, 0, (size_t)b->n_contacts * sizeof *b->direction);
-    b->direction[j] = b->size[j];
-    if (!m->free[j] || !b->varies[j]) continue;
-    *st = solve_along(b, m, 0, &b->inside);
-    b->gradient[j] = (high ? 1 : -1) * b->inside.rate[r];
-    /* At its limit, and the gradient beyond: it stays. */
-    const double beyond = m->asked[j] - m->w[j];
-    if (fabs(beyond) > 1e-9 * b->size[j] && beyond * b->gradient[j] > 0) b->gradient[j] = 0;
-    length = hypot(length, b->gradient[j]);
+  *found = false;
+  memset(b->direction, 0, (size_t)b->n_contacts * sizeof *b->direction);
+  hc_status st = solve_along(b, m, 0, &b->origin); /* for its factors */
+  const member *at = &b->origin;
+  for (int j = 0; j < b->n_contacts && st == HC_OK; ++j) {
+    double rate = 0;
+    if (!at->free[j] || !b->varies[j]) continue;
+    st = hbm_rest_tangent(b->s, j, b->origin.along);
+    if (st == HC_OK) st = differentiate(b, at->X, at->along, r, NULL, &rate);
+    rate *= (high ? 1 : -1) * b->size[j];
+    b->direction[j] = is_held(b, at, j, rate) ? 0 : rate;
+    length = hypot(length, b->direction[j]);
   }
-  for (int j = 0; j < b->n_contacts && length > 0; ++j) b->direction[j] = b->gradient[j] / length * b->size[j];
-  return *st == HC_OK && length > 1e-9 * m->A[r];
+  for (int j = 0; j < b->n_contacts && length > 0; ++j) b->direction[j] *= b->size[j] / length;
+  *found = st == HC_OK && length > 1e-9 * at->A[r];
+  return st;
 }
 
 static hc_status climb(band_search *b, int r, bool high)
 {
   hc_status st = HC_OK;
+  const member *best = best_of(b, r, high);
   for (int i = 0; i < MOST_CLIMBS && st == HC_OK; ++i) {
-    const double before = best_of(b, r, high)->A[r];
-    if (!climb_direction(b, best_of(b, r, high), r, high, &st)) break;
+    const double before = best->A[r], other = best_of(b, r, !high)->A[r];
+    bool found;
+    st = climb_direction(b, best, r, high, &found);
+    if (st != HC_OK || !found) break;
     st = follow(b, &b->origin, r, high);
-    if (fabs(best_of(b, r, high)->A[r] - before) <= 1e-6 * before) break;
+    if (fabs(best->A[r] - before) <= little_gain * fabs(best->A[r] - other)) break;
   }
   return st == HC_NO_MEMORY || st == HC_INTERRUPTED ? st : HC_OK;
 }
@@ -425,12 +455,12 @@ static double exact_amplitude(band_search *b, const member *m, const double *w, 
   return same ? found.amplitude : NAN;
 }
 
-/* The sliders of a member at their limit, those asked beyond it; how many, most at most. */
+/* The sliders of one tangent at their limit, those asked beyond it; how many, most at most. */
 static int list_held(const band_search *b, const member *m, int most, int *held)
 {
   int n = 0;
   for (int j = 0; j < b->n_contacts && n < most; ++j)
-    if (m->free[j] && fabs(m->asked[j] - m->w[j]) > 1e-9 * b->size[j]) held[n++] = j;
+    if (m->free[j] && !b->model->contacts[j].circle && fabs(m->asked[j] - m->w[j]) > 1e-9 * b->size[j]) held[n++] = j;
   return n;
 }
 

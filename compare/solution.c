@@ -403,6 +403,12 @@ static hc_status measure_response(comparison_work *w, const hbm_curve *at, int k
   return HC_OK;
 }
 
+/* Is the band wider than what is said to agree? */
+static bool is_wide(const comparison_work *w, const comparison_row *row)
+{
+  return !row->still && band_width(&row->band) > gate_limits_at(w->setup->limits, row->omega).amplitude;
+}
+
 /* w->bands, and the verdict of a solution that agrees while its neighbours in the family do not. */
 static hc_status find_bands(comparison_work *w, const double *X, comparison_row *row)
 {
@@ -415,8 +421,7 @@ static hc_status find_bands(comparison_work *w, const double *X, comparison_row 
     if (st == HC_OK) st = band_find(w->band_search, row->omega, X, w->monitor, w->bands);
   }
   row->band = w->bands[0];
-  if (row->verdict == VERDICT_MATCH && band_width(&row->band) > gate_limits_at(w->setup->limits, row->omega).amplitude)
-    row->verdict = VERDICT_FAMILY;
+  if (row->verdict == VERDICT_MATCH && is_wide(w, row)) row->verdict = VERDICT_FAMILY;
   return st;
 }
 
@@ -463,7 +468,7 @@ hc_status solution_turn(comparison_work *w, const hbm_curve *at, int k, int r, c
   if (comparison_one_orbit(first)) {
     const bool within = row->still || within_limits(w->setup, &row->errors, &row->transient);
     row->verdict = within ? VERDICT_MATCH : stability_of(first) < 0 ? VERDICT_UNSTABLE : VERDICT_DIFFERS;
-    if (within && first->verdict == VERDICT_FAMILY) row->verdict = VERDICT_FAMILY;
+    if (row->verdict == VERDICT_MATCH && is_wide(w, row)) row->verdict = VERDICT_FAMILY;
   }
   row->unexpected = comparison_unexpected(row);
   return st == HC_OK ? account_beside(w, r, row) : st;

@@ -559,11 +559,14 @@ int cli_take_frequencies(const cli_common *common, const number_list *at, bool f
   return cli_frequencies_fit(common, at, followed, sc, why) ? 0 : cli_failed(common, EXIT_BAD_CASE, "%s", why);
 }
 
-/* A structure that cannot be solved at rest: names the motion that nothing holds there. */
+/* A structure that cannot be solved at rest: names the motion that nothing holds there. A static load may press its
+ * contacts on. */
 static bool advice_on_free_motion(const scene_structure *s, char text[ADVICE_TEXT])
 {
   message m;
   bool is_free = false;
+  for (int i = 0; i < s->n_loads; ++i)
+    if (s->loads[i].harmonic == 0 && s->loads[i].amplitude != 0) return false;
   double *x = malloc((size_t)s->n * sizeof *x);
   if (x && structure_free_motion(s, true, x, &is_free) == HC_OK && is_free) {
     message_start(&m, text, ADVICE_TEXT);

@@ -448,6 +448,20 @@ static void put_departures(figure *g, const comparison *c)
   figure_series_end(g);
 }
 
+/* A line at each omega from the least to the largest amplitude, as sliders rest elsewhere that never slip. */
+static void put_bands(figure *g, const comparison *c)
+{
+  figure_series(g, "lines", "lw 5 lc rgb '#80E69F00'", "where sliders rest elsewhere");
+  for (int i = 0; i < c->n_rows; ++i) {
+    const comparison_row *r = &c->rows[i];
+    if (r->response != 0 || !(band_width(&r->band) > 0)) continue;
+    figure_point(g, r->omega, r->band.low);
+    figure_point(g, r->omega, r->band.high);
+    figure_gap(g);
+  }
+  figure_series_end(g);
+}
+
 hc_status plot_compare(plot_order *p, const scene *sc, const comparison *c, const accuracy *a)
 {
   figure g = {0};
@@ -461,6 +475,7 @@ hc_status plot_compare(plot_order *p, const scene *sc, const comparison *c, cons
   if (st == HC_OK) st = curve_figure_open(&g, p, sc, width, all ? 1040 : HEIGHT);
   if (st == HC_OK) {
     put_curve(&g, &shape, false);
+    put_bands(&g, c);
     put_departures(&g, c);
     figure_verdicts(&g, "transient", c->n_rows, c->rows, compared_point);
     response_panels(&g, sc, &shape, curve_shape_settings(sc, &shape, settings), all ? a : NULL);

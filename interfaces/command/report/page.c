@@ -61,7 +61,8 @@ static void write_budget(page *p)
                                "hbm_amplitude",
                                "transient_amplitude",
                                "amplitude_error",
-                               BUDGET_PARTS(HEAD) "sum"};
+                               BUDGET_PARTS(HEAD) "sum",
+                               "from_history"};
 #undef HEAD
   html_table(p->to,
              "Verdict and error budget of the amplitude, relative; bars: 1e-12 to 1, logarithmic; red: beyond the gate",
@@ -83,6 +84,7 @@ static void write_budget(page *p)
     BUDGET_PARTS(BAR)
 #undef BAR
     html_cell_bar(p->to, r->budget.known ? b->sum : NAN, p->d->sc->gate.most.amplitude);
+    html_cell_bar(p->to, band_from_history(&r->band, r->hbm.amplitude), p->d->sc->gate.most.amplitude);
     html_row_end(p->to);
   }
   html_table_end(p->to);
