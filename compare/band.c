@@ -22,8 +22,9 @@ enum {
   MOST_CONFIRMED = 12 /* orbits that locate an end */
 };
 
-static const double first_step = 0.25, longest_step = 1, least_step = 1e-5, corner_step = 1e-2,
-                    plane_step = 0.05;  /* [slip length] */
+static const double first_step = 0.25, linear_step = 8 /* where amplitudes stand still */, longest_step = 1,
+                    least_step = 1e-5, corner_step = 1e-2, plane_step = 0.05; /* [slip length] */
+static const double flat = 1e-9; /* [amplitude] what an extremum may rise farther, which truncation exceeds by far */
 static const double little_gain = 0.01; /* [band] of a line along the gradient: the last one */
 /* [metric] A step that moves contacts by more, and by more than three times what was predicted, is to another solution:
  * a fifth of a motion is far for a quarter of a slip length. */
@@ -283,7 +284,7 @@ static hc_status locate(band_search *b, const member *from, const member *to, in
     if (st != HC_OK) return st;
     take(b, &b->inside);
     const double f = b->inside.rate[r], width = high_end - low;
-    if (fabs(f) * width <= 1e-14 * b->inside.A[r] || width <= 1e-9) break;
+    if (fabs(f) * width <= flat * b->inside.A[r] || width <= 1e-9) break;
     if ((f > 0) == (f_low > 0)) {
       low = at, f_low = f;
       if (side == -1) f_high *= 0.5;
@@ -348,6 +349,7 @@ static hc_status follow(band_search *b, const member *start, int r, bool high)
   copy_member(b, start, &b->here);
   b->here.step = 0;
   hc_status st = solve_along(b, start, 0, &b->here); /* with this line's rates */
+  if (start->linear && !in_plane) step = linear_step;
   for (int i = 0; i < MOST_STEPS && st == HC_OK; ++i) {
     st = solve_along(b, &b->here, step, &b->next);
     if (st == HC_NO_MEMORY || st == HC_INTERRUPTED) return st;
@@ -371,6 +373,7 @@ static hc_status follow(band_search *b, const member *start, int r, bool high)
     swap_members(&b->here, &b->next);
     corner = passed ? INFINITY : corner - step;
     step = passed ? first_step : fmin(1.5 * step, longest_step);
+    if (b->here.linear && !in_plane) step = linear_step;
     if (step >= corner) step = fmax(0.5 * corner, corner_step);
   }
   b->whole = false;

@@ -23,7 +23,7 @@ static void compare(const char *name, int n_set, const char *const *set, compari
 
 static bool on_one_orbit(const comparison_row *r)
 {
-  return r->verdict == VERDICT_MATCH || r->verdict == VERDICT_DIFFERS;
+  return comparison_one_orbit(r);
 }
 
 /* ---- predictions ----------------------------------------------------------------------------------- */
@@ -76,7 +76,7 @@ static void see(const char *name, const char *at, void (*made)(model *m), int *d
   *differ = *unexpected = 0;
   *rows = c.n_rows;
   for (int i = 0; i < c.n_rows; ++i) {
-    *differ += c.rows[i].verdict != VERDICT_MATCH;
+    *differ += !comparison_agrees(&c.rows[i]);
     *unexpected += c.rows[i].unexpected;
   }
   comparison_clear(&c);
