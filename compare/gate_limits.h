@@ -20,7 +20,7 @@ typedef enum gate_nonlinear { GATE_NONLINEAR_ANY, GATE_NONLINEAR_REQUIRED } gate
 typedef struct gate_limits {
   discrepancy most; /* [1] largest relative discrepancy */
   gate_ranges ranges;
-  double band; /* [1] the widest band (compare/band.h) that passes; INFINITY: any */
+  double band; /* [1] the widest band (compare/band.h) that passes; 0: any */
   gate_nonlinear nonlinear;
   bool proven; /* is the orbit next to each solution to be proven, and its error in amplitude below the limit? */
   int iterations, evaluations; /* most for the response curve; 0: no limit */
