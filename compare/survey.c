@@ -14,7 +14,7 @@
 #include "numerics/base/workspace.h"
 #include "numerics/workers.h"
 
-/* Starts are followed in blocks, each with a handle of its own, so that no result depends on what another thread did. */
+/* Starts are followed in blocks, each with a handle of its own: no result depends on what other threads did. */
 enum { BLOCK = 8 };
 
 /* [amplitude] Members of a family may be as far apart; of a continuum many starts leave smaller steps. */
@@ -57,6 +57,17 @@ typedef struct survey_work {
 } survey_work;
 
 static double *state_of(const survey_work *w, int i) { return w->states + (size_t)i * (size_t)w->n_states; }
+
+/* While what was found changes, for who looks at it meanwhile. */
+static void lock_found(const survey_work *w)
+{
+  if (w->setup->found) pthread_mutex_lock(w->setup->found);
+}
+
+static void unlock_found(const survey_work *w)
+{
+  if (w->setup->found) pthread_mutex_unlock(w->setup->found);
+}
 
 static timeint_result *result_of(const survey_work *w, int i)
 {
@@ -276,7 +287,9 @@ static hc_status look_beside(survey_work *w, int start, survey_row *row)
       const bool again = out->beside.n > 0 && out->beside.points[out->beside.n - 1].omega == w->omega;
       point.branch = point.part = again ? out->beside.points[out->beside.n - 1].branch + 1 : w->how->first_branch;
       point.d_omega = 1;
+      lock_found(w);
       st = hbm_curve_append(&out->beside, longer, X, X + longer, &point);
+      unlock_found(w);
       if (st == HC_OK) st = add_known(w, X, row->hbm_branch = point.branch);
     }
   }
@@ -349,9 +362,9 @@ static hc_status measure_motions(survey_work *w)
     if (st == HC_OK) st = measure_motion(w, i, n_made, &rows[n]);
     if (st == HC_OK) rows[n++].motion = i;
   }
-  if (w->setup->found) pthread_mutex_lock(w->setup->found);
+  lock_found(w);
   if (st == HC_OK) st = add_rows(w, n, rows);
-  if (w->setup->found) pthread_mutex_unlock(w->setup->found);
+  unlock_found(w);
   free(rows);
   return st;
 }

@@ -1,8 +1,9 @@
 /* survey.h - which steady states the exact law reaches at a frequency, from many starts, and how many starts each has.
  *
- * Starts are drawn (survey_starts.h), but the first one, at rest, and the next, on each HBM solution; each is followed to where its motion goes, by time
- * integration in closed form, or by CVODE where a law is smooth. Equal motions are one row. Motions of one period that
- * no HBM solution has are handed to harmonic balance: solutions that the curve does not come to, as on an isola. */
+ * Starts are drawn (survey_starts.h), but the first one, at rest, and the next, on each HBM solution. Each is followed
+ * to where its motion goes by time integration, in closed form, or by CVODE where a law is smooth. Equal motions are one
+ * row. Motions of one period that no HBM solution has are handed to harmonic balance: solutions that the curve does not
+ * come to, as on an isola. */
 #pragma once
 
 #include "compare/steady_states.h"
@@ -36,9 +37,9 @@ typedef struct survey { /* made empty with {0}; results of further frequencies a
   hbm_curve beside; /* solutions that the curves do not come to, for survey_append_beside */
 } survey;
 
-/* Steady states at omega, appended to *out. at: the curve's solutions there (hbm_curve_at), which may be none; hbm NULL:
- * no harmonic balance. After HC_INTERRUPTED what was found is kept, and shares are of the starts made. HC_BAD_INPUT,
- * HC_NO_MEMORY; errors of timeint_new and model_modes. */
+/* Steady states at omega, appended to *out. at: the curve's solutions there (hbm_curve_at), which may be none; hbm
+ * NULL: no harmonic balance. After HC_INTERRUPTED what was found is kept, and shares are of the starts made.
+ * HC_BAD_INPUT, HC_NO_MEMORY; errors of timeint_new and model_modes. */
 hc_status survey_at(const compare_setup *setup, hbm_solver *hbm, const hbm_curve *at, double omega,
                     const survey_settings *how, const hc_monitor *monitor, survey *out);
 void survey_clear(survey *s);

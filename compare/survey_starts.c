@@ -204,8 +204,7 @@ static void draw_back(const survey_starts *s, double energy, double *x)
     for (int row = 0; row < s->model->n; ++row) x[row] = s->rest[row] + less * (x[row] - s->rest[row]);
 }
 
-/* Sliders within what friction allows about u, and within a few times the size of the motion; w = u where the contact is
- * open. */
+/* Sliders within what friction allows about u, and within a few times the motion; w = u where the contact is open. */
 static void draw_sliders(const survey_starts *s, const double *unit, const double *x, double scale, double *w)
 {
   const model *m = s->model;

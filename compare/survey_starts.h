@@ -1,15 +1,14 @@
 /* survey_starts.h - where the motions of a survey begin: points of a low-discrepancy sequence (Sobol's, GSL; beyond its
  * 40 dimensions random numbers), shifted by numbers that the seed draws, as states (x, v, w) about rest:
  *
- *     x = x_rest + sum_i r_i a_i phi_i xi_i     v = sum_i r_i a_i max(omega, omega_i) phi_i eta_i     xi, eta in [-1, 1)
- *     w = u + zeta mu N/kt, but within a few times that size      zeta in [-1, 1), under the law of the circle in a disc
+ *     x = x_rest + sum_i r_i a_i phi_i xi_i       v = sum_i r_i a_i max(omega, omega_i) phi_i eta_i
+ *     w = u + zeta min(mu N/kt, a few motions)    xi, eta, zeta in [-1, 1); zeta under the law of the circle in a disc
  *
- * phi_i are modes, at most MOST_MODES (survey_starts.c), the fastest ones. r a_i [length] is, for half of the starts, the
- * largest amplitude of the mode in the linear response and in the motions seen so far (survey_starts_see), so that
- * directions of any size have starts of theirs; for a fifth a tenth of it; for the others spread evenly in its logarithm
- * up to four times that or the largest amplitude that the loads can keep up, whichever is more: in a periodic motion
- * the damping of the mode takes at most what its load gives, c_i v_rms <= p_rms. No start presses normal springs with more energy than its
- * motion has. Start 0 is rest. */
+ * phi_i are modes, at most MOST_MODES (survey_starts.c), the fastest ones. a_i [length] is the largest amplitude of the
+ * mode in the linear response and in the motions seen so far (survey_starts_see): directions of any size have starts of
+ * theirs. r_i is 1 for half of the starts and 0.1 for a fifth; for the others spread evenly in its logarithm up to 4 or
+ * to the largest amplitude that the loads can keep up: in a periodic motion the damping of the mode takes at most what
+ * its load gives, c_i v_rms <= p_rms. Normal springs hold no more energy than the motion has. Start 0 is rest. */
 #pragma once
 
 #include "model/model.h"

@@ -16,9 +16,9 @@ static const char help[] =
     "of --at, from starts drawn in position, velocity and sliders, the share of the starts that each has, and the HBM "
     "solution that it runs on. A motion that no solution of the curve has is handed to HBM: what that finds, as on an "
     "isola, gets a branch number above those of the curve."
-    "\vStarts: one at rest, one on each HBM solution, the others Sobol points in the modes that move most, sized by the linear response "
-    "and by what was found. Time integration is in closed form (smooth laws: CVODE). Rows with free_sliders are "
-    "families: a slider rests differently in each start.\n"
+    "\vStarts: one at rest, one on each HBM solution, the others Sobol points in the modes that move most, sized by "
+    "the linear response and by what was found. Time integration is in closed form (smooth laws: CVODE). Rows with "
+    "free_sliders are families: a slider rests differently in each start.\n"
     "exit: 0 done  2 case file wrong  3 some starts came to nothing (which and why on stderr)  64 usage\n"
     "example: hbmcheck survey cases/paper/case2.yaml --at 5.11,8";
 

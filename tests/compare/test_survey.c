@@ -136,7 +136,7 @@ static void threads_change_nothing(CHECK_STATE)
 }
 
 /* A Jenkins element that sticks under a constant load: every start ends with its slider elsewhere, and with it the
- * mean; the amplitude is F/|K + kt - M w^2 + i C w| in each, within the tolerance 1e-9. One family, all of the starts. */
+ * mean; the amplitude is F/|K + kt - M w^2 + i C w| in each, within the tolerance 1e-9. One family has all starts. */
 static void a_family_is_one_motion(CHECK_STATE)
 {
   const double w = 5;
@@ -184,6 +184,16 @@ static void a_solution_beside_the_curve(CHECK_STATE)
   CHECK_LE(distance_2(known.at.n_coef, X, Y), 1e-8 * norm_2(known.at.n_coef, X), "of the two solutions");
   hbm_curve_free(&all);
   clear(&known);
+  clear(&s);
+}
+
+/* Motions that fly onto a contact like a wall, of 4e9: with damping they stay bounded, however large they began. */
+static void a_large_start_is_no_escape(CHECK_STATE)
+{
+  const scene sc = case_scene("adversarial/hard", 0, NULL);
+  surveyed s = run(&sc, 6.5, 60, 2, NULL);
+  check_shares(&s, 60);
+  for (int i = 0; i < s.found.n_rows; ++i) assert_int_equal(s.found.rows[i].steady.status, HC_OK);
   clear(&s);
 }
 
@@ -255,5 +265,5 @@ static void starts_are_admissible(CHECK_STATE)
 }
 
 CHECK_TESTS("compare.survey", 60, sub_harmonics_of_case_2, two_branches_of_case_2, threads_change_nothing,
-            a_family_is_one_motion, a_solution_beside_the_curve, a_solution_on_an_isola, a_stop_keeps_what_was_made,
-            starts_are_admissible)
+            a_family_is_one_motion, a_solution_beside_the_curve, a_solution_on_an_isola, a_large_start_is_no_escape,
+            a_stop_keeps_what_was_made, starts_are_admissible)

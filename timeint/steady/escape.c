@@ -22,7 +22,7 @@ hc_status escape_size(const timeint *ti)
   const double unbounded = 1e9, grown = 1e3; /* [least_length]; [size of the start], which may be any */
   const double size = timeint_size(ti);
   if (!isfinite(size)) return HC_NOT_FINITE;
-  return size <= fmax(unbounded * ti->least_length, grown * ti->length) ? HC_OK : HC_UNBOUNDED;
+  return size <= fmax(unbounded * ti->least_length, grown * ti->start_size) ? HC_OK : HC_UNBOUNDED;
 }
 
 bool escape_note(timeint *ti)
