@@ -1,9 +1,9 @@
 /* survey.h - which steady states the exact law reaches at a frequency, from many starts, and how many starts each has.
  *
  * Starts are drawn (survey_starts.h), but the first one, at rest, and the next, on each HBM solution. Each is followed
- * to where its motion goes by time integration, in closed form, or by CVODE where a law is smooth. Equal motions are one
- * row. Motions of one period that no HBM solution has are handed to harmonic balance: solutions that the curve does not
- * come to, as on an isola. */
+ * to where its motion goes by time integration, in closed form, or by CVODE where a law is smooth. Equal motions are
+ * one row. Motions of one period that no HBM solution has are handed to harmonic balance: solutions that the curve does
+ * not come to, as on an isola. */
 #pragma once
 
 #include "compare/steady_states.h"
