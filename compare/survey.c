@@ -14,9 +14,6 @@
 #include "numerics/base/workspace.h"
 #include "numerics/workers.h"
 
-/* Starts are followed in blocks, each with a handle of its own: no result depends on what other threads did. */
-enum { BLOCK = 8 };
-
 /* [amplitude] Members of a family may be as far apart; of a continuum many starts leave smaller steps. */
 static const double family_step = 0.1;
 
@@ -102,14 +99,13 @@ static hc_status follow_start(survey_work *w, timeint *ti, int i, const hc_monit
   return st == HC_NO_MEMORY ? st : HC_OK;
 }
 
-/* For workers_run. */
-static hc_status follow_block(void *self, int block, const hc_monitor *monitor)
+/* For workers_run. With a handle of its own: no result depends on what was followed before. */
+static hc_status follow_task(void *self, int task, const hc_monitor *monitor)
 {
   survey_work *w = self;
   timeint *ti;
-  const int first = w->first + block * BLOCK;
   hc_status st = timeint_new(w->setup->model, &w->transient, &ti);
-  for (int i = first; i < first + BLOCK && i < w->last && st == HC_OK; ++i) st = follow_start(w, ti, i, monitor);
+  if (st == HC_OK) st = follow_start(w, ti, w->first + task, monitor);
   timeint_free(ti);
   return st;
 }
@@ -138,13 +134,12 @@ static hc_status follow_all(survey_work *w)
     else if (st != HC_NO_MEMORY) st = HC_OK;
   }
   for (int part = 0; part < 2 && st == HC_OK; ++part) {
-    w->first = part * (n / 4);
-    w->last = part ? n : n / 4;
+    const int n_part = part ? n - n / 4 : n / 4;
+    w->first = part ? n / 4 : 0;
     for (int i = 0; i < w->first; ++i)
       if (w->status[i] == HC_OK) survey_starts_see(w->starts, state_of(w, i));
-    const progress_part progress = {w->monitor, (double)w->first / n, (double)(w->last - w->first) / n};
-    const int blocks = (w->last - w->first + BLOCK - 1) / BLOCK;
-    st = workers_run(w->how->jobs, blocks, follow_block, w, &(hc_monitor){tick_part, (void *)&progress});
+    const progress_part progress = {w->monitor, (double)w->first / n, (double)n_part / n};
+    st = workers_run(w->how->jobs, n_part, follow_task, w, &(hc_monitor){tick_part, (void *)&progress});
   }
   return st;
 }
