@@ -12,6 +12,7 @@ CHAIN, CASE2 = "cases/structures/chain3.yaml", "cases/paper/case2.yaml"
 COMMANDS = {  # what is run for the columns of each command: one degree of freedom where a structure has no more
     "frf": ["frf", CHAIN, "--at", "1.485", "--contacts"],
     "transient": ["transient", CHAIN, "--at", "1.485", "--contacts"],
+    "survey": ["survey", CHAIN, "--at", "1.485", "--starts", "8"],
     "compare": ["compare", CHAIN, "--at", "1.485", "--contacts"],
     "compare --tables": ["compare", CASE2, "--harmonics", "3", "--samples", "32"],
     "modes": ["modes", CHAIN],

@@ -17,6 +17,7 @@ static bool prediction_known(const comparison_row *r)
 {
   return !r->family && !isnan(r->hbm_predicted.amplitude) && !isnan(r->transient_predicted.amplitude);
 }
+static bool on_hbm(const survey_row *r) { return r->hbm_branch >= 0; }
 static const char *yes_no(bool yes) { return yes ? "yes" : "no"; }
 static bool has_hbm(const comparison_row *r) { return r->branch >= 0 && r->hbm_status == HC_OK; }
 static bool has_orbit(const comparison_row *r) { return r->orbit_status == HC_OK; }
@@ -345,6 +346,37 @@ static const char *stability_text(int s) { return s > 0 ? "stable" : s < 0 ? "un
     r->harmonics) \
   X(ALL, REAL, seconds, "s", "processor time", r->multiple > 0, r->seconds) \
   X(ALL, INTEGER, free_sliders, "", "how many never slip; above 0: one of a family", r->proven, r->free_sliders)
+
+#define SURVEY_COLUMNS(X) \
+  AT_OMEGA(X, r->steady.result.omega) \
+  X(ALL, INTEGER, motion, "", "from 0, by falling share", true, r->motion) \
+  RESPONSE(X, r->steady.response_name) \
+  X(ALL, TEXT, verdict, "", \
+    "settled, unstable, period_2, ..., aperiodic, not_settled, unbounded, creeps, solver_failed", true, \
+    steady_verdict_text(&r->steady, (char[24]){0})) \
+  X(ALL, INTEGER, period_multiple, "", "periods of the load in one of the motion; 0: it does not repeat", true, \
+    settled(&r->steady) ? r->steady.result.period_multiple : 0) \
+  MEASURES(X, measured(&r->steady), r->steady.result) \
+  X(ALL, REAL, amplitude_low, "length", "least over its starts: of a family, or of what does not repeat", \
+    measured(&r->steady), r->amplitude_low) \
+  X(ALL, REAL, amplitude_high, "length", "largest over its starts", measured(&r->steady), r->amplitude_high) \
+  MULTIPLIER(X, settled(&r->steady), r->steady.result.multiplier) \
+  X(ALL, TEXT, stable, "", "yes, no or unknown", settled(&r->steady), \
+    verdict_in_words(timeint_stability(&r->steady.result))) \
+  STRONGEST_STATE(X, measured(&r->steady), r->steady.result.regime) \
+  X(ALL, INTEGER, free_sliders, "", "how many sliders never slip; above 0: a family, by where they rest", \
+    settled(&r->steady), r->steady.result.free_sliders) \
+  DRIFT(X, r->steady.status, r->steady.result.drift) \
+  X(ALL, REAL, share, "1", "of the starts that came to it", true, r->share) \
+  X(ALL, INTEGER, starts, "", "that came to it", true, r->starts) \
+  X(ALL, INTEGER, hbm_branch, "", \
+    "of the HBM solution that it runs on; above all of the curve: one that the curve does not come to; empty: none", \
+    on_hbm(r), r->hbm_branch) \
+  X(ALL, REAL, hbm_error, "1", "largest |hbm - motion| over a period / the motion's amplitude", on_hbm(r), \
+    r->hbm_error) \
+  X(IN_MEMORY, TEXT, status, "", "why there is no steady state, or ok", true, hc_status_text(r->steady.status)) \
+  X(IN_MEMORY, SERIES, wave, "length", "x at i/n of the last period, from the forcing's maximum on", \
+    measured(&r->steady), ((row_series){TIMEINT_WAVE, r->steady.result.wave}))
 /* clang-format on */
 
 static void fill_REAL(row_cell *c, bool there, double value)
@@ -406,6 +438,10 @@ static const char *const of_prove[] = {
     "multiplier_low", "multiplier_high", "hbm_amplitude", "period_multiple", "radius", "transitions", "error_predicted",
     "certificate", "states", "amplitude_high", "reason", NULL};
 
+static const char *const of_survey[] = {
+    "omega", "multiplier", "free_sliders", "period_multiple", "rms", "hbm_error", "drift", "min", "max", "harmonic_1",
+    "contact", "mean", "amplitude_low", "amplitude_high", NULL};
+
 static const char *const of_others[] = {"omega", NULL};
 /* clang-format on */
 
@@ -451,7 +487,8 @@ typedef struct row_column {
   X(ROWS_CONTACT, contact, contact_row, CONTACT_COLUMNS, of_contact) \
   X(ROWS_STEADY_CONTACT, steady_contact, steady_contact, STEADY_CONTACT_COLUMNS, of_contact) \
   X(ROWS_COMPARE_CONTACT, compare_contact, contact_comparison, COMPARE_CONTACT_COLUMNS, of_compare_contact) \
-  X(ROWS_PROVE, prove, proof_row, PROVE_COLUMNS, of_prove)
+  X(ROWS_PROVE, prove, proof_row, PROVE_COLUMNS, of_prove) \
+  X(ROWS_SURVEY, survey, survey_row, SURVEY_COLUMNS, of_survey)
 KINDS(KIND_OF)
 
 #define KIND(kind, name, row, LIST, spare) \

@@ -8,6 +8,7 @@
 #include "compare/output/table.h"
 #include "compare/response.h"
 #include "compare/steady_states.h"
+#include "compare/survey.h"
 #include "proof/prove/prove.h"
 
 typedef enum {
@@ -22,6 +23,7 @@ typedef enum {
   ROWS_STEADY_CONTACT,  /* of steady_contact    */
   ROWS_COMPARE_CONTACT, /* of contact_comparison */
   ROWS_PROVE,           /* of proof_row          */
+  ROWS_SURVEY,          /* of survey_row         */
   ROWS_KINDS
 } rows_kind;
 

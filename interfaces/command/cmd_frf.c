@@ -9,6 +9,7 @@
 #include "compare/output/progress.h"
 #include "compare/response.h"
 #include "compare/study/scene_solvers.h"
+#include "compare/survey.h"
 #include "interfaces/command/case_names.h"
 #include "interfaces/command/commands.h"
 #include "interfaces/command/keep_found.h"
@@ -31,6 +32,7 @@ typedef struct frf_options {
   bool contacts;        /* what each contact does, too */
   bool band;            /* of each solution */
   bool verbose;         /* how Newton's equations were solved, too */
+  int survey;           /* starts at each of `at`; 0: none */
 } frf_options;
 
 static const cli_option options[] = {
@@ -39,6 +41,9 @@ static const cli_option options[] = {
     CLI_CONTACTS_OPTION(frf_options),
     {CLI_FLAG, "band", NULL, "With --at: the least and largest amplitude as sliders rest elsewhere that never slip",
      offsetof(frf_options, band)},
+    {CLI_INTEGER, "survey", "N",
+     "With --at: also solutions that the curve does not come to, next to motions from N starts, as hbmcheck survey has",
+     offsetof(frf_options, survey), 1, SURVEY_MOST_STARTS},
     {CLI_FLAG, "verbose", NULL, "Also how Newton's equations were solved", offsetof(frf_options, verbose)},
     CLI_PLOT_OPTION,
     {0},
@@ -263,6 +268,31 @@ static hc_status note_specials(const cli_common *common, table *t, table *specia
   return st;
 }
 
+/* Appends the solutions next to motions from drawn starts that the curve does not come to. */
+static hc_status find_beside(const cli_common *common, int starts, hbm_solver *s, const hbm_curve *curve,
+                             const hc_monitor *monitor, hbm_curve *found)
+{
+  compare_setup setup;
+  survey motions = {0};
+  const survey_settings how = {starts, SURVEY_SEED, cli_jobs(common), survey_first_branch(curve)};
+  hc_status st = scene_setup(common->scene, &setup);
+  for (int i = 0; i < setup.compare.omega.n && st == HC_OK; ++i) {
+    const double omega = setup.compare.omega.v[i];
+    hbm_curve at = {0};
+    if (hbm_curve_at(s, curve, omega, &at) == HC_NO_MEMORY) st = HC_NO_MEMORY;
+    if (st == HC_OK) st = survey_at(&setup, s, &at, omega, &how, monitor, &motions);
+    hbm_curve_free(&at);
+  }
+  if (st == HC_OK || st == HC_INTERRUPTED) {
+    const hc_status added = survey_append_beside(&motions, 0, found);
+    if (added != HC_OK) st = added;
+  }
+  const hc_status taken = hbm_curve_settle(found, found->n);
+  survey_clear(&motions);
+  scene_setup_clear(&setup);
+  return taken != HC_OK ? taken : st;
+}
+
 /* The whole curve in a row: for programs. */
 static table *summary_table(const cli_common *common, hbm_solver *s, const hbm_curve *c, hc_status *st)
 {
@@ -280,6 +310,8 @@ static int run_frf(cli_common *common, void *given, scene *sc)
   plot_responses of_case = {0, structure_response_count(sc->structure) - 1};
   if (own->response && (of_case.first = of_case.last = cli_response_named(common, own->response)) < 0)
     return EXIT_USAGE;
+  if (own->survey && !own->at.n)
+    return cli_failed(common, EXIT_USAGE, "at which frequencies? --survey N goes with --at LIST");
   if (!own->at.n) sc->compare.omega.n = 0; /* those of the case are for the comparison */
   const int refused = cli_take_frequencies(common, &own->at, true, sc);
   if (refused) return refused;
@@ -315,6 +347,10 @@ static int run_frf(cli_common *common, void *given, scene *sc)
     double lacks_at = 0;
     hc_status solved = at->n ? response_at(s, &curve, at, &found, &lacks_at) : HC_OK;
     if (st == HC_OK) failed_at = lacks_at;
+    if (own->survey && solved != HC_NO_MEMORY && st != HC_NO_MEMORY && st != HC_INTERRUPTED) {
+      const hc_status surveyed = find_beside(common, own->survey, s, &curve, &monitor, &found);
+      if (surveyed != HC_OK) st = surveyed;
+    }
     /* also with --at a curve that stops early is a failure: it might have turned back to those omegas */
     if (st == HC_OK) st = solved;
     note_curve(t, sc, s, &curve, at->n > 0);

@@ -6,8 +6,8 @@
 
 /* clang-format off */
 #define COMMANDS(X) \
-  X(compare) X(frf) X(modes) X(reduce) X(transient) X(study) X(bench) X(advise) X(gate) X(verify) X(prove) X(suite) \
-  X(stress) X(report) X(lab) X(contact) X(describe)
+  X(compare) X(frf) X(modes) X(reduce) X(transient) X(survey) X(study) X(bench) X(advise) X(gate) X(verify) X(prove) \
+  X(suite) X(stress) X(report) X(lab) X(contact) X(describe)
 /* clang-format on */
 
 #define COMMANDS_DECLARE(name) extern const cli_command cmd_##name;

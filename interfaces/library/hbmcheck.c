@@ -203,9 +203,9 @@ struct hbmcheck_result {
   int code;
 };
 
-static const cli_command *const commands[] = {&cmd_compare, &cmd_frf,     &cmd_transient, &cmd_modes,
-                                              &cmd_verify,  &cmd_advise,  &cmd_prove,     &cmd_reduce,
-                                              &cmd_gate,    &cmd_contact, &names};
+static const cli_command *const commands[] = {&cmd_compare, &cmd_frf,    &cmd_transient, &cmd_survey,
+                                              &cmd_modes,   &cmd_verify, &cmd_advise,    &cmd_prove,
+                                              &cmd_reduce,  &cmd_gate,   &cmd_contact,   &names};
 enum { N_COMMANDS = sizeof commands / sizeof *commands };
 
 static bool tick(void *self, double done)

@@ -107,9 +107,9 @@ void hbmcheck_case_free(hbmcheck_case *c);
 
 typedef struct hbmcheck_result hbmcheck_result;
 
-/* Run `command` on the case: compare, frf, transient, modes, verify, advise, prove, reduce, gate or contact, whose help
- * and columns are those of `hbmcheck COMMAND --help` and docs/interface.md; or names: what its responses and contacts
- * are called. options[n]: "--at=6,8", or "--at" and "6,8"; --set, --output (of a folder or file that the command
+/* Run `command` on the case: compare, frf, transient, survey, modes, verify, advise, prove, reduce, gate or contact,
+ * whose help and columns are those of `hbmcheck COMMAND --help` and docs/interface.md; or names: what its responses and
+ * contacts are called. options[n]: "--at=6,8", or "--at" and "6,8"; --set, --output (of a folder or file that the command
  * writes) and --quiet are taken, too; --format, --wide and --plot are not. One run at a time of a case.
  * Where a command's csv and json leave something to remarks, its tables have columns and tables more: stable, status,
  * coefficients, wave, ...; special points and summary of a curve; the gate's numbers of a comparison.

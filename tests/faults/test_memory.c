@@ -138,6 +138,7 @@ static void transient(CHECK_STATE)
   try("transient small.yaml -q -o result");
   try("transient small.yaml -q -o result --format csv --set transient.law=exact --set transient.start=rest");
   try("transient small.yaml -q -o result --format json --set transient.law=exact --set transient.start=up");
+  try("survey small.yaml -q -o result --format csv --starts 6 -j 1");
 }
 
 static void compare(CHECK_STATE)

@@ -19,9 +19,10 @@ static const double rounding = 1e-9; /* [1] of K d, beside the terms it is made 
 
 hc_status escape_size(const timeint *ti)
 {
-  const double unbounded = 1e9, size = timeint_size(ti); /* [least_length] */
+  const double unbounded = 1e9, grown = 1e3; /* [least_length]; [size of the start], which may be any */
+  const double size = timeint_size(ti);
   if (!isfinite(size)) return HC_NOT_FINITE;
-  return size <= unbounded * ti->least_length ? HC_OK : HC_UNBOUNDED;
+  return size <= fmax(unbounded * ti->least_length, grown * ti->start_size) ? HC_OK : HC_UNBOUNDED;
 }
 
 bool escape_note(timeint *ti)

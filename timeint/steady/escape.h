@@ -15,7 +15,7 @@
 /* False where K has no direction without stiffness: nothing creeps. */
 bool timeint_may_creep(const timeint *ti);
 
-/* HC_UNBOUNDED where the motion is larger than any damped resonance; HC_NOT_FINITE where numbers have overflown, which
+/* HC_UNBOUNDED where the motion is larger than any damped resonance, and than its start; HC_NOT_FINITE where numbers have overflown, which
  * is no growth. */
 hc_status escape_size(const timeint *ti);
 

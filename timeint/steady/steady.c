@@ -331,6 +331,7 @@ static hc_status reach(timeint *ti, double omega, int k, bool at_state, double *
   if (k < 0 || k > SETTLE_MAX_MULTIPLE) return HC_BAD_INPUT;
   hc_status st = timeint_begin(ti, omega, state);
   if (st != HC_OK) return st;
+  ti->start_size = timeint_size(ti);
   const hc_monitor *before = timeint_hear(ti, monitor);
   const bool closed_first = ti->closed_form && (k > 0 || ti->how.steady != TRANSIENT_STEADY_MARCH);
   if (closed_first && at_state) st = closed_start_confirm(ti, k, monitor, result, &done);

@@ -65,6 +65,7 @@ struct timeint {          /* from timeint_new, to timeint_free; not shared betwe
   double omega;        /* [rad/time]                                                                    */
   double length;       /* [length] about the size of the motion; y is in units of it                    */
   double least_length; /* [length] the unit is never smaller                                            */
+  double start_size;   /* [length] of the motion that timeint_steady or timeint_orbit began with */
   state_sizes sizes;   /* of states in that unit                                                        */
   known_orbit known[KNOWN_ORBITS];
   int next_known;

@@ -9,7 +9,7 @@ friction and gap contacts, and another program's curve held against both.
     model.compare([6, 8])              both, with verdicts
     model.verify(omega, amplitude)     a curve of your own, point by point, and the likely cause where it is off
     model.contact_force(u, v)          Fourier coefficients of one contact's forces
-    model.modes(), .advise(), .prove(), .gate(), .reduce(folder): as the commands of these names
+    model.modes(), .survey(at), .advise(), .prove(), .gate(), .reduce(folder): as the commands of these names
     model.replace(hbm={"harmonics": 9})    another model, of other settings
 
 The equations are those of interfaces/library/hbmcheck.h. Units: any consistent set; omega is in rad per unit time.

@@ -212,6 +212,10 @@ class Model:
         Rows that failed say so in `status`. progress and contacts as of frf; contacts may take as long again."""
         return self._run("transient", Transient, {"at": omega, **options}, progress, contacts)
 
+    def survey(self, at: Any = None, starts: int = 200, progress: Optional[Progress] = None, **options: Any) -> Table:
+        """The motions that so many drawn starts come to, with their shares, and the HBM solution of each."""
+        return self._run("survey", Table, {"at": at, "starts": int(starts), **options}, progress)
+
     def compare(self, omega: Any = None, progress: Optional[Progress] = None, contacts: bool = False, **options: Any) -> Comparison:
         """Harmonic balance and time integration at omega, a number or [n] [rad/time]; None: at the case's compare.omega
         or compare.points. A verdict for each row. progress and contacts as of transient."""
