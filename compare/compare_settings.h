@@ -33,6 +33,7 @@ typedef struct compare_setup {
   bool spare;                /* leave out parts of the budget that nobody asks for and no verdict depends on */
   bool contacts;             /* what each contact does, too */
   bool multipliers;          /* of every HBM solution; otherwise only where a verdict depends on them */
+  int survey;                /* drawn starts at each frequency (compare/survey.h); 0: none */
   bool advise;               /* try what brings the worst row within the limits */
   pthread_mutex_t *found;    /* held while rows are added to the results; NULL: nobody else looks */
   void (*added)(void *self); /* called when rows were added, without that lock, with added_to; NULL: nobody asks */

@@ -56,6 +56,29 @@ static hc_status add_solution(comparison_work *w, const hbm_curve *at, int k, co
   return st;
 }
 
+/* The motions that drawn starts come to at omega, into out->survey from row *first on; solutions that no curve has,
+ * behind the others in *at. */
+static hc_status look_around(comparison_work *w, double omega, hbm_curve *at, int *first)
+{
+  survey *all = &w->out->survey;
+  const survey_settings how = {w->setup->survey, SURVEY_SEED, w->setup->jobs > 1 ? w->setup->jobs : 1,
+                               survey_first_branch(&w->out->curve)};
+  const int beside = all->beside.n;
+  *first = all->n_rows;
+  if (w->setup->survey == 0) return HC_OK;
+  const hc_status st = survey_at(w->setup, w->hbm, at, omega, &how, w->monitor, all);
+  return st == HC_OK ? survey_append_beside(all, beside, at) : st;
+}
+
+/* Motions of the survey, from row `first` on, that do not run on that branch. */
+static int count_others(const comparison_work *w, int first, int branch)
+{
+  const survey *all = &w->out->survey;
+  int n = 0;
+  for (int i = first; i < all->n_rows; ++i) n += all->rows[i].steady.response == 0 && all->rows[i].hbm_branch != branch;
+  return w->setup->survey > 0 ? n : -1;
+}
+
 /* Every HBM solution at omega. */
 static hc_status compare_at(comparison_work *w, double omega)
 {
@@ -63,6 +86,7 @@ static hc_status compare_at(comparison_work *w, double omega)
   const comparison_row none = {.omega = omega,
                                .branch = -1,
                                .verdict = VERDICT_SOLVER_FAILED,
+                               .others = -1,
                                .transient_status = HC_UNSUPPORTED,
                                .orbit_status = HC_UNSUPPORTED,
                                .errors = {NAN, NAN, NAN, NAN},
@@ -71,7 +95,10 @@ static hc_status compare_at(comparison_work *w, double omega)
                                .transient_predicted = {NAN, NAN, NAN, NAN},
                                .budget = budget_nothing()};
   comparison_row row = none;
+  int first;
   row.hbm_status = hbm_curve_at(w->hbm, &w->out->curve, omega, &at);
+  const hc_status looked = look_around(w, omega, &at, &first);
+  if (looked != HC_OK) return hbm_curve_free(&at), looked;
   if (row.hbm_status == HC_OK && at.n == 0)
     row.hbm_status = w->out->curve.end != HC_OK ? w->out->curve.end : HC_NOT_CONVERGED;
   hc_status st = row.hbm_status == HC_NO_MEMORY ? HC_NO_MEMORY : HC_OK;
@@ -85,6 +112,7 @@ static hc_status compare_at(comparison_work *w, double omega)
   }
   for (int k = 0; k < at.n && st == HC_OK; ++k) {
     row = none;
+    row.others = count_others(w, first, at.points[k].branch);
     st = solution_compare(w, &at, k, &row);
     /* what was stopped inside may look like an answer */
     if (st == HC_OK && !hc_monitor_tick(w->monitor, 1)) st = HC_INTERRUPTED;
@@ -170,6 +198,7 @@ static hc_status make_states(comparison_work *w)
   w->budgets = workspace_array(memory, responses, sizeof *w->budgets);
   w->bands = workspace_array(memory, responses, sizeof *w->bands);
   const size_t longest = (size_t)(2 * HBM_MAX_HARMONICS + 1) * (size_t)w->setup->model->n;
+  w->moving = workspace_doubles(memory, longest);
   w->beside = workspace_doubles(memory, longest);
   w->moved = workspace_doubles(memory, w->setup->reduction > 0 ? 2 * longest : 0);
   w->acting = workspace_array(memory, contacts, sizeof *w->acting);
@@ -214,6 +243,7 @@ hc_status comparison_run(const compare_setup *setup, const hc_monitor *monitor, 
 
 void comparison_clear(comparison *c)
 {
+  survey_clear(&c->survey);
   hbm_curve_free(&c->curve);
   free(c->contacts);
   free(c->states);

@@ -14,6 +14,7 @@
 #include "compare/compare_settings.h"
 #include "compare/discrepancy.h"
 #include "compare/response.h"
+#include "compare/survey.h"
 #include "hbm/hbm.h"
 #include "model/contact_period.h"
 #include "model/model.h"
@@ -102,6 +103,7 @@ typedef struct comparison_row {
   /* What each side expects of itself, relative to its own amplitude; `mean` is not predicted. NaN: not known. */
   discrepancy hbm_predicted, transient_predicted;
   bool unexpected; /* comparison_unexpected() */
+  int others;      /* other motions at this omega that drawn starts come to (setup.survey); -1: not asked */
   band band;       /* of the steady states that differ by where sliders rest that never slip */
 } comparison_row;
 
@@ -124,6 +126,7 @@ typedef struct comparison {
   int n_states;             /* in a state of time integration */
   double *states;           /* [n_rows][n_states] of each row: where the transient ended */
   comparison_cost cost;
+  survey survey; /* with setup.survey: all motions at these frequencies; solutions that it led to have rows, too */
   int harmonics, samples;              /* in use: for auto, the most the curve needed; samples 0 for exact forces */
   char advice[COMPARISON_ADVICE_TEXT]; /* with setup.advise: what brings comparison_worst within the gate, as tried */
 } comparison;

@@ -199,6 +199,8 @@ static const char *stability_text(int s) { return s > 0 ? "stable" : s < 0 ? "un
   X(ALL, REAL, from_history, "1", \
     "how far the amplitude is off at most where sliders that never slip rest elsewhere", true, \
     band_from_history(&r->band, r->hbm.amplitude)) \
+  X(ALL, INTEGER, others, "", "with --survey: motions at this omega that drawn starts come to, elsewhere", \
+    r->others >= 0, r->others) \
   X(IN_MEMORY, TEXT, stable, "", "of the HBM solution: yes, no or unknown", has_hbm(r), \
     stable_text(true, &r->stability)) \
   X(IN_MEMORY, REAL, multiplier, "1", "size of the HBM solution's largest Floquet multiplier", has_hbm(r), \

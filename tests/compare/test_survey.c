@@ -1,5 +1,5 @@
-/* test_survey.c - the motions that starts come to: those of case 2 that other programs know (PHYSICS: AUTO-07p and
- * closed forms), families, mirror images, a solution beside the curve, and that threads change nothing. */
+/* test_survey.c - the motions that starts come to: those of case 2 that other programs know (AUTO-07p, closed
+ * forms), families, mirror images, a solution beside the curve, and that threads change nothing. */
 #include "compare/survey.h"
 
 #include <float.h>
@@ -7,6 +7,7 @@
 #include "compare/gate_limits.h"
 #include "compare/survey_starts.h"
 #include "tests/case_scene.h"
+#include "tests/scene_runs.h"
 #include "timeint/timeint.h"
 
 /* What a survey of one frequency found, with the solutions that HBM has there. */
@@ -222,6 +223,27 @@ static void a_solution_on_an_isola(CHECK_STATE)
 }
 
 /* Stopped: what was made is kept, with shares of that. */
+/* The comparison with a survey has a row of the isola's solution, and says of each that there is one motion elsewhere. */
+static void a_comparison_lists_the_isola(CHECK_STATE)
+{
+  scene sc = case_scene("adversarial/isola", 0, NULL);
+  compare_setup setup;
+  comparison c;
+  sc.compare.omega = (number_list){.n = 1, .v = {3.6}};
+  assert_int_equal(scene_setup(&sc, &setup), HC_OK);
+  for (int starts = 0; starts <= 40; starts += 40) {
+    setup.survey = starts;
+    assert_int_equal(comparison_run(&setup, NULL, &c), HC_OK);
+    assert_int_equal(c.n_rows, starts ? 2 : 1);
+    for (int i = 0; i < c.n_rows; ++i) {
+      assert_true(comparison_agrees(&c.rows[i]));
+      assert_int_equal(c.rows[i].others, starts ? 1 : -1);
+    }
+    comparison_clear(&c);
+  }
+  scene_setup_clear(&setup);
+}
+
 static void a_stop_keeps_what_was_made(CHECK_STATE)
 {
   const scene sc = case_scene("paper/case2", 0, NULL);
@@ -265,5 +287,5 @@ static void starts_are_admissible(CHECK_STATE)
 }
 
 CHECK_TESTS("compare.survey", 60, sub_harmonics_of_case_2, two_branches_of_case_2, threads_change_nothing,
-            a_family_is_one_motion, a_solution_beside_the_curve, a_solution_on_an_isola, a_large_start_is_no_escape,
-            a_stop_keeps_what_was_made, starts_are_admissible)
+            a_family_is_one_motion, a_solution_beside_the_curve, a_solution_on_an_isola, a_comparison_lists_the_isola,
+            a_large_start_is_no_escape, a_stop_keeps_what_was_made, starts_are_admissible)
