@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "compare/comparison.h"
+#include "compare/referee.h"
 #include "model/parts.h"
 #include "numerics/base/workspace.h"
 #include "numerics/dense.h"

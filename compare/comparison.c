@@ -169,20 +169,6 @@ static hc_status advise(comparison_work *w)
   return HC_OK;
 }
 
-hc_status comparison_referee(const compare_setup *setup, timeint *beside, timeint **out)
-{
-  transient_settings how = setup->transient;
-  how.law = TRANSIENT_LAW_EXACT;
-  how.tolerance = fmin(how.tolerance, 1e-9);
-  if (beside) return timeint_new_beside(beside, &how, out);
-  hc_status st = timeint_new(setup->model, &how, out);
-  timeint *closed_form = st == HC_OK ? timeint_closed_form_of(*out) : NULL;
-  if (!closed_form) return st;
-  timeint_free(*out);
-  *out = closed_form;
-  return HC_OK;
-}
-
 static hc_status make_states(comparison_work *w)
 {
   const size_t n = (size_t)(w->out->n_states = timeint_n_states(w->ti));

@@ -13,6 +13,7 @@
 #include "compare/budget.h"
 #include "compare/compare_settings.h"
 #include "compare/discrepancy.h"
+#include "compare/referee.h"
 #include "compare/response.h"
 #include "compare/survey.h"
 #include "hbm/hbm.h"
@@ -183,12 +184,5 @@ const char *comparison_unexpected_text(const comparison_row *row, char text[COMP
 /* 0 agreed; 1 a transient differs from every HBM solution, or in period; 3 something could not be compared. */
 int comparison_exit_code(const comparison *c);
 
-/* The time integration that HBM solutions are held against: the model, with the exact law. For timeint_orbit.
- * It shares with `beside`, if that is not NULL, what is found in closed form. */
-hc_status comparison_referee(const compare_setup *setup, timeint *beside, timeint **out);
-
 /* A state on the transient's orbit of row i; meaningful where transient_status is HC_OK. */
 const double *comparison_state(const comparison *c, int i);
-
-/* state[timeint_n_states]: x(t), x'(t) and sliders at t = 0 of an HBM solution, where its transient starts. */
-hc_status comparison_orbit_start(hbm_solver *hbm, const double *X, double omega, double *state);

@@ -12,13 +12,6 @@
 #include "timeint/steady/contact_watch.h"
 #include "timeint/steady/sweep.h"
 
-hc_status comparison_orbit_start(hbm_solver *hbm, const double *X, double omega, double *state)
-{
-  const int n = hbm_n_dof(hbm);
-  const hc_status st = hbm_state(hbm, omega, X, state, state + n);
-  return st == HC_OK ? hbm_sliders(hbm, X, state + 2 * n) : st;
-}
-
 /* Response r of the solution X against the transient; into *m, if not NULL, the solution's measures. */
 static hc_status errors_of(const comparison_work *w, int r, double omega, const double *X, const timeint_result *tr,
                            hbm_measures *m, discrepancy *out)

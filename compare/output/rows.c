@@ -129,12 +129,12 @@ static const char *stability_text(int s) { return s > 0 ? "stable" : s < 0 ? "un
   MEAN_FREE(X, settled(r), motion_mean_is_free(&r->result)) \
   X(RESPONSES, REAL, second_frequency, "rad/time", "of a torus, up to sign and multiples of omega", measured(r), \
     r->result.second_frequency) \
-  DRIFT(X, r->status, r->result.drift) \
   X(ALL, REAL, window_low, "length", "of what does not repeat: the least amplitude of one period", measured(r), \
     r->result.window_low) \
   X(ALL, REAL, window_high, "length", "and the largest", measured(r), r->result.window_high) \
   X(ALL, INTEGER, window, "", "of so many periods, from the row's own on", measured(r) && r->result.window > 0, \
     r->result.window) \
+  DRIFT(X, r->status, r->result.drift) \
   X(IN_MEMORY, TEXT, stable, "", "yes, no or unknown", true, \
     settled(r) ? verdict_in_words(timeint_stability(&r->result)) : "unknown") \
   X(IN_MEMORY, TEXT, status, "", "why there is no steady state, or ok", true, hc_status_text(r->status)) \
@@ -194,13 +194,13 @@ static const char *stability_text(int s) { return s > 0 ? "stable" : s < 0 ? "un
   X(ALL, TEXT, unexpected, "", "yes where both differ by more than three times both predictions", prediction_known(r), \
     yes_no(r->unexpected)) \
   MEAN_FREE(X, has_hbm(r), comparison_mean_free(r)) \
-  DRIFT(X, r->transient_status, r->transient.drift) \
   BAND(X, ALL, r->band) \
   X(ALL, REAL, from_history, "1", \
     "how far the amplitude is off at most where sliders that never slip rest elsewhere", true, \
     band_from_history(&r->band, r->hbm.amplitude)) \
   X(ALL, INTEGER, others, "", "with --survey: motions at this omega that drawn starts come to, elsewhere", \
     r->others >= 0, r->others) \
+  DRIFT(X, r->transient_status, r->transient.drift) \
   X(IN_MEMORY, TEXT, stable, "", "of the HBM solution: yes, no or unknown", has_hbm(r), \
     stable_text(true, &r->stability)) \
   X(IN_MEMORY, REAL, multiplier, "1", "size of the HBM solution's largest Floquet multiplier", has_hbm(r), \

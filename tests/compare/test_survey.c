@@ -52,12 +52,12 @@ static const char *verdicts(const survey *s, char text[256])
   return text;
 }
 
-static const survey_row *row_of(const survey *s, const char *verdict)
+static const survey_row *row_of(const survey *s, const char *name)
 {
   char text[24];
   for (int i = 0; i < s->n_rows; ++i)
-    if (strcmp(steady_verdict_text(&s->rows[i].steady, text), verdict) == 0) return &s->rows[i];
-  fail_msg("no motion is %s", verdict);
+    if (strcmp(steady_verdict_text(&s->rows[i].steady, text), name) == 0) return &s->rows[i];
+  fail_msg("no motion is %s", name);
   return NULL;
 }
 

@@ -138,6 +138,7 @@ static void field_is_in_range(const field *f, const void *base)
   case FIELD_PAIR:
     number_is_in_range(f, ((const double *)at)[0]), number_is_in_range(f, ((const double *)at)[1]);
     return;
+  case FIELD_PART: return; /* its values are those of other fields */
   default: list_is_in_range(f, at); return;
   }
 }
