@@ -57,7 +57,7 @@ struct band_search {
   int n_sets, n_done;
   double *size;           /* [contacts] [length] slip length */
   double *direction;      /* [contacts] of the line */
-  double *gradient;       /* [contacts] */
+  double *located;        /* [responses][2][contacts] where the exact law has the sliders at best[] */
   double *x, *dx, *moved; /* [2 HBM_MAX_HARMONICS + 1] twice, [n_coef] */
   double *state, *tried;  /* [n_states] of the exact law */
   double (*room)[2];      /* [contacts] */
@@ -144,7 +144,7 @@ hc_status band_search_new(const model *m, hbm_solver *s, timeint *exact, band_se
   b->waiting = workspace_array(w, MOST_SETS, sizeof *b->waiting);
   b->size = workspace_doubles(w, contacts);
   b->direction = workspace_doubles(w, contacts);
-  b->gradient = workspace_doubles(w, contacts);
+  b->located = workspace_doubles(w, 2 * (size_t)m->n_responses * contacts);
   b->x = workspace_doubles(w, 2 * HBM_MAX_HARMONICS + 1);
   b->dx = workspace_doubles(w, 2 * HBM_MAX_HARMONICS + 1);
   b->room = workspace_array(w, contacts, sizeof *b->room);
@@ -481,11 +481,11 @@ static void update_slopes(int n, const double *s, const double *f, double *J)
 
 /* Moves the sliders at their limit to where the exact law has it: the room left to each, in slip lengths, is brought to
  * 0 by Broyden's method, from slopes of -1. A slider beyond its limit is dragged back to it, and counts where it is. */
-static double locate_end(band_search *b, const member *m, int r, hc_status *st)
+static double locate_end(band_search *b, const member *m, int r, double *w, hc_status *st)
 {
   int held[MOST_HELD], pivot[MOST_HELD];
   double J[MOST_HELD * MOST_HELD] = {0}, lu[MOST_HELD * MOST_HELD], at[2][MOST_HELD], room[2][MOST_HELD],
-                       step[MOST_HELD], change[MOST_HELD], A = NAN, *w = b->gradient;
+                       step[MOST_HELD], change[MOST_HELD], A = NAN;
   const int n = list_held(b, m, MOST_HELD, held), first = 2 * b->model->n;
   memcpy(w, m->w, (size_t)b->n_contacts * sizeof *w);
   bool lower[MOST_HELD]; /* T is at -mu N: w is at its largest */
@@ -519,9 +519,8 @@ static double locate_end(band_search *b, const member *m, int r, hc_status *st)
 }
 
 /* The extremum between limits: by a parabola through three orbits, twice, of one free slider. */
-static double locate_inside(band_search *b, const member *m, int r, bool high, hc_status *st)
+static double locate_inside(band_search *b, const member *m, int r, bool high, double *w, hc_status *st)
 {
-  double *w = b->gradient;
   int free = -1;
   memcpy(w, m->w, (size_t)b->n_contacts * sizeof *w);
   for (int j = 0; j < b->n_contacts; ++j)
@@ -543,14 +542,33 @@ static double locate_inside(band_search *b, const member *m, int r, bool high, h
   return best;
 }
 
+/* An earlier response whose extremum is the same end of the family: 2 q + high of it; -1: none. */
+static int same_end(const band_search *b, const member *m)
+{
+  for (const member *n = b->best; n < m; ++n) {
+    bool same = true;
+    for (int j = 0; j < b->n_contacts && same; ++j) same = fabs(m->w[j] - n->w[j]) <= 1e-9 * b->size[j];
+    if (same) return (int)(n - b->best);
+  }
+  return -1;
+}
+
+/* *amplitude: of the exact law at the least or largest member of response r; NaN: it has none there. */
 static hc_status confirm(band_search *b, int r, bool high, double *amplitude)
 {
   const member *m = best_of(b, r, high);
+  const bool held = list_held(b, m, 1, &(int){0}) > 0;
+  const int known = held ? same_end(b, m) : -1;
+  double *located = b->located + (size_t)(m - b->best) * (size_t)b->n_contacts;
   hc_status st = HC_OK;
   hbm_start_sliders(b->s, m->asked);
   *amplitude = NAN;
   if (comparison_orbit_start(b->s, m->X, b->omega, b->state) != HC_OK) return HC_OK;
-  *amplitude = list_held(b, m, 1, &(int){0}) ? locate_end(b, m, r, &st) : locate_inside(b, m, r, high, &st);
+  if (known >= 0)
+    memcpy(located, b->located + (size_t)known * (size_t)b->n_contacts, (size_t)b->n_contacts * sizeof *located);
+  if (known >= 0) *amplitude = exact_amplitude(b, m, located, r, false, &st);
+  else if (held) *amplitude = locate_end(b, m, r, located, &st);
+  else *amplitude = locate_inside(b, m, r, high, located, &st);
   return st;
 }
 
@@ -581,7 +599,8 @@ static hc_status find_sizes(band_search *b)
     const contact *law = &m->contacts[j].law;
     whole += !contact_goes_on(m->contacts[j].pair);
     const contact_period *p = &b->periods[whole];
-    b->size[j] = law->kt > 0 ? law->mu * 0.5 * (p->normal_min + p->normal_max) / law->kt : 0;
+    const double share = m->contacts[j].pair == CONTACT_FIRST || m->contacts[j].pair == CONTACT_SECOND ? 0.5 : 1;
+    b->size[j] = law->kt > 0 ? law->mu * share * 0.5 * (p->normal_min + p->normal_max) / law->kt : 0;
   }
   return st;
 }
@@ -622,8 +641,14 @@ hc_status band_find(band_search *b, double omega, const double *X, const hc_moni
       double ends[2] = {NAN, NAN};
       for (int high = 0; high < 2 && b->exact && st == HC_OK; ++high) st = confirm(b, r, high, &ends[high]);
       out[r].confirmed = !isnan(ends[0]) && !isnan(ends[1]);
-      if (out[r].confirmed) out[r].low = ends[0], out[r].high = ends[1];
+      if (b->exact && !out[r].confirmed) out[r].kind = BAND_AT_LEAST;
+      if (!isnan(ends[0])) out[r].low = ends[0];
+      if (!isnan(ends[1])) out[r].high = ends[1];
     }
+  }
+  if (st != HC_OK && st != HC_NO_MEMORY && st != HC_INTERRUPTED) { /* nothing is known */
+    for (int r = 0; r < b->n_responses; ++r) out[r] = (band){.kind = BAND_NOT_ASKED, .low = NAN, .high = NAN};
+    st = HC_OK;
   }
   hbm_start_sliders(b->s, NULL);
   b->solves += hbm_solves(b->s) - before;
