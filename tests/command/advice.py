@@ -65,7 +65,7 @@ class Compare(unittest.TestCase):
             self.assertRegex(said, r"^harmonic_1 1\.3 %: family \(\d+ %\); use .*transient\.start: hbm")
             self.assertNotIn("regularisation", said)
             rows, _ = compare(*start, *followed(said))
-            self.assertEqual({r["verdict"] for r in rows if r["response"] == "1"}, {"match"})
+            self.assertEqual({r["verdict"] for r in rows if r["response"] == "1"}, {"family"})
 
     def test_samples_and_exact_forces(self):
         sampled = (CASE2, "--at", "6", "--set", "hbm.force=sampled", "--set", "hbm.samples=32")
