@@ -178,6 +178,7 @@ static void curve_is_the_librarys(CHECK_STATE)
   hbm_curve_free(&curve);
   hbm_solver_free(s);
   model_free(m);
+  case_clear(&sc);
   lab_free(l);
 }
 
