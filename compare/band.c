@@ -402,8 +402,8 @@ static bool is_held(const band_search *b, const member *m, int j, double to)
   return fabs(beyond) > 1e-9 * b->size[j] && beyond * to > 0;
 }
 
-/* b->direction: by which amplitude r of *m, from now on b->origin, grows fastest, or falls, of length 1 in slip lengths:
- * a back-substitution a slider. *found: there is one. */
+/* b->direction: by which amplitude r of *m, from now on b->origin, grows fastest, or falls, of length 1 in slip
+ * lengths: a back-substitution a slider. *found: there is one. */
 static hc_status climb_direction(band_search *b, const member *m, int r, bool high, bool *found)
 {
   double length = 0;

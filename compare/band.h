@@ -1,16 +1,17 @@
 /* band.h - all steady states that differ from an HBM solution by where its free sliders rest (hbm/solver/rests.h): the
  * least and the largest amplitude of each response among them.
  *
- * Which they are: the members of the family at this omega that can be reached from the solution by moving the rests. A
- * member is followed along one rest at a time, other sliders being dragged along where they cannot stay, from limit to
- * limit; where on the way another contact ceases to slip it is one rest more, and both ways along that are followed, too.
- * The largest and the least amplitude may lie between: there the rate by the rest changes its sign.
- *     exact      one free slider at a time, or the contacts are linear and amplitudes stand still: every member was seen
- *     at least   several free sliders: beside these lines the amplitude is climbed and descended along its gradient from
- *                the best members; or a line could not be followed to its end
- * No member has another amplitude, and nothing is searched, where no rest can change a normal force that varies, or a
- * gap (STRUCTURE: the energy of the difference of two motions only falls, and is constant for periodic ones): each
- * uncoupled part of the structure by itself; or where the part has one contact alone. */
+ * They are the members of the family at this omega that can be reached from the solution by moving the rests. A member
+ * is followed along one rest at a time, from limit to limit; other sliders are dragged along where they cannot stay.
+ * Where another contact ceases to slip there is one rest more, and both ways along that are followed, too. The largest
+ * and the least amplitude may lie between limits: there the rate by the rest changes its sign.
+ *     exact      everywhere on these lines at most one slider was free, or no contact changed its state, and then
+ *                amplitudes do not depend on rests: all members on them were seen
+ *     at least   more sliders are free: beside the lines the amplitude is climbed and descended along its gradient
+ *                from the best members; or a line could not be followed to its end, or an end not be confirmed
+ * Nothing is searched, and the width is 0, where a part of the structure (model/parts.h) has one contact alone, or none
+ * whose normal force or gap a mean moves: of two motions of a linear structure on sliders of constant N the difference
+ * obeys d/dt [dv M dv + dx K dx + sum dT^2/kt]/2 <= -dv C dv, so that two periodic ones differ by a constant. */
 #pragma once
 
 #include "compare/compare_settings.h"
@@ -41,8 +42,8 @@ typedef struct band_search band_search;
 hc_status band_search_new(const model *m, hbm_solver *s, timeint *exact, band_search **out);
 void band_search_free(band_search *b); /* NULL is allowed */
 
-/* out[responses]: of the solution X at omega. HC_OK, also where members could not be followed: `at least`. HC_NO_MEMORY,
- * HC_INTERRUPTED. The solver's sliders begin at 0 again afterwards. */
+/* out[responses]: of the solution X at omega. HC_OK, also where members could not be followed: `at least`.
+ * HC_NO_MEMORY, HC_INTERRUPTED. The solver's sliders begin at 0 again afterwards. */
 hc_status band_find(band_search *b, double omega, const double *X, const hc_monitor *monitor, band *out);
 
 /* Where the free sliders rest at the least (false) or largest (true) amplitude of response r, of the last search:

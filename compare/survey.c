@@ -322,7 +322,7 @@ static int by_share(const void *a, const void *b)
 static hc_status add_rows(survey_work *w, int n, survey_row *rows)
 {
   survey *out = w->out;
-  qsort(rows, (size_t)n, sizeof *rows, by_share);
+  if (n > 0) qsort(rows, (size_t)n, sizeof *rows, by_share);
   survey_row *grown = growing_by(out->rows, out->n_rows, n * w->n_responses, sizeof *grown);
   if (!grown) return HC_NO_MEMORY;
   out->rows = grown;

@@ -88,8 +88,9 @@ bool model_is_smooth(const model *m);
 /* True if any contact follows a law with kinks. */
 bool model_has_kinks(const model *m);
 
-/* True if -x(t + T/2) is a solution for each solution x(t): sliders that begin at 0, loads of odd harmonics only, and each contact has a law
- * that is odd in x, or an opposite contact of the same law: normals opposite, tangents along one line. */
+/* True if -x(t + T/2) is a solution for each solution x(t): sliders that begin at 0, loads of odd harmonics only, and
+ * each contact has a law that is odd in x, or an opposite contact of the same law: normals opposite, tangents along one
+ * line. */
 bool model_is_symmetric(const model *m);
 
 /* The law of each half of a pair, from the whole contact's. */

@@ -1,7 +1,7 @@
 /* rows.c - see rows.h. The one place where a result has columns: each is a line of a list,
  *   X(where, kind, name, unit, meaning, is it there, value)   with r the row
- * where: ALL tables; IN_CYCLES, RESPONSES, IN_MEMORY, WITH_BANDS: those asked for (rows.h). A value is worked out when a table that
- * has the column takes the row. */
+ * where: ALL tables; IN_CYCLES, RESPONSES, IN_MEMORY, WITH_BANDS: those asked for (rows.h). A value is worked out when
+ * a table that has the column takes the row. */
 #include "compare/output/rows.h"
 
 #include <string.h>
@@ -420,7 +420,8 @@ static const char *const of_compare[] = {
     "omega", "hbm_predicted_harmonic_1", "hbm_predicted_waveform", "transient_predicted_harmonic_1",
     "transient_predicted_waveform", "budget_sum", "budget_observed", "orbit_multiplier", "orbit_amplitude",
     "hbm_harmonic_1", "transient_harmonic_1", "periods", "from_reduction", "from_settling", "from_integration",
-    "unexpected", "band_low", "band_high", "from_history", "orbit_error", "from_aliasing", "from_truncation", "from_regularisation", "transient_predicted",
+    "unexpected", "band_low", "band_high", "from_history", "orbit_error", "from_aliasing",
+    "from_truncation", "from_regularisation", "transient_predicted",
     "hbm_predicted", "mean_error", "band_kind", "harmonic_1_error", "largest_part", "waveform_error", NULL};
 
 static const char *const of_accuracy[] = {

@@ -61,9 +61,9 @@ typedef struct found_points {
   model *model;                        /* of that */
   band *bands;                         /* [responses] of the point under way */
   const hc_monitor *monitor;
-  bool free;                           /* a slider that never slips leaves a mean to history */
-  int points;                          /* so many */
-  double last;                         /* [rad/time] the last one's omega */
+  bool free;   /* a slider that never slips leaves a mean to history */
+  int points;  /* so many */
+  double last; /* [rad/time] the last one's omega */
   keep_found beside;
   shown_rows shown;            /* the rows of all points, of the thread that finds them */
   table *contacts;             /* and of all contacts; NULL without --contacts */
@@ -315,7 +315,8 @@ static int run_frf(cli_common *common, void *given, scene *sc)
   if (!own->at.n) sc->compare.omega.n = 0; /* those of the case are for the comparison */
   const int refused = cli_take_frequencies(common, &own->at, true, sc);
   if (refused) return refused;
-  if (own->band && !own->at.n) return cli_failed(common, EXIT_USAGE, "--band: at which frequencies? --at LIST was expected");
+  if (own->band && !own->at.n)
+    return cli_failed(common, EXIT_USAGE, "--band: at which frequencies? --at LIST was expected");
   common->bands = own->band;
   hbm_curve curve = {0}, found = {0};
   double from, to, failed_at = 0, drift = NAN;

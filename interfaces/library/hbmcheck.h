@@ -109,8 +109,8 @@ typedef struct hbmcheck_result hbmcheck_result;
 
 /* Run `command` on the case: compare, frf, transient, survey, modes, verify, advise, prove, reduce, gate or contact,
  * whose help and columns are those of `hbmcheck COMMAND --help` and docs/interface.md; or names: what its responses and
- * contacts are called. options[n]: "--at=6,8", or "--at" and "6,8"; --set, --output (of a folder or file that the command
- * writes) and --quiet are taken, too; --format, --wide and --plot are not. One run at a time of a case.
+ * contacts are called. options[n]: "--at=6,8", or "--at" and "6,8"; --set, --output (of a folder or file that the
+ * command writes) and --quiet are taken, too; --format, --wide and --plot are not. One run at a time of a case.
  * Where a command's csv and json leave something to remarks, its tables have columns and tables more: stable, status,
  * coefficients, wave, ...; special points and summary of a curve; the gate's numbers of a comparison.
  * HBMCHECK_OK: it did what was asked, also where single rows failed, which say so. HBMCHECK_BAD_INPUT: the case or the

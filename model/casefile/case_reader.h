@@ -16,19 +16,19 @@
 enum { CASE_LARGEST = 16 << 20 }; /* bytes of a case file; an echoed one holds matrices of some 500 rows */
 
 typedef struct case_reader {
-  const char *name;       /* of the file, for messages                               */
-  const char *noun;       /* "case", or what else such a file is, for messages       */
-  const char *required;   /* the keys it must have, in words                         */
-  const char *const *set; /* the assignments                                         */
-  int set_now;            /* the one being applied, from 1; 0 while the file is read */
-  yaml_document_t doc;    /* of the file, or of the assignment being applied         */
-  case_place here;        /* of the path being resolved or the value being set       */
-  case_place end;         /* of the file's text; line = 0 before it is known         */
-  scene sc;               /* as far as it has been read                              */
-  mesh *mesh;             /* of sc.structure->mesh, once it was asked for; or NULL   */
+  const char *name;         /* of the file, for messages                               */
+  const char *noun;         /* "case", or what else such a file is, for messages       */
+  const char *required;     /* the keys it must have, in words                         */
+  const char *const *set;   /* the assignments                                         */
+  int set_now;              /* the one being applied, from 1; 0 while the file is read */
+  yaml_document_t doc;      /* of the file, or of the assignment being applied         */
+  case_place here;          /* of the path being resolved or the value being set       */
+  case_place end;           /* of the file's text; line = 0 before it is known         */
+  scene sc;                 /* as far as it has been read                              */
+  mesh *mesh;               /* of sc.structure->mesh, once it was asked for; or NULL   */
   const yaml_node_t *rests; /* the value of transient.rest, until the contacts are read; or NULL */
-  bool owns_structure;    /* or shares it with the scene it was started from         */
-  bool takes_large;       /* matrices of more than most_dense rows are kept sparse, not refused */
+  bool owns_structure;      /* or shares it with the scene it was started from         */
+  bool takes_large;         /* matrices of more than most_dense rows are kept sparse, not refused */
   int most_dense;
   case_source *source; /* or NULL: what another model needs of the text           */
   /* [field_index] where each field was last given; of contacts' fields, in the contact being read */

@@ -312,10 +312,10 @@ hc_status yaml_structure_part(case_reader *r, const field *f, const yaml_node_t 
   static const struct {
     const char *name;
     hc_status (*read)(case_reader *, const yaml_node_t *);
-  } parts[] = {{"mass", read_mass},          {"stiffness", read_stiffness},
-               {"damping", read_damping},    {"names", read_names},
-               {"nodes", read_nodes},        {"mesh", read_mesh},
-               {"direction", read_base},     {"response", yaml_responses_read},
+  } parts[] = {{"mass", read_mass},           {"stiffness", read_stiffness},
+               {"damping", read_damping},     {"names", read_names},
+               {"nodes", read_nodes},         {"mesh", read_mesh},
+               {"direction", read_base},      {"response", yaml_responses_read},
                {"reduction", read_reduction}, {"rest", keep_rests}};
   size_t i = 0;
   if (f->flags & FIELD_IN_STRUCTURE) return read_damping_value(r, f, node);

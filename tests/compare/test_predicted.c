@@ -57,10 +57,7 @@ static void run(comparison *c)
   assert_true(c->n_rows >= 5);
 }
 
-static bool on_one_orbit(const comparison_row *r)
-{
-  return comparison_one_orbit(r);
-}
+static bool on_one_orbit(const comparison_row *r) { return comparison_one_orbit(r); }
 
 /* HBM's own prediction, without a stub: three times of it holds what is found, and is no more than what is needed. */
 static void hbm_predicts_what_is_found(CHECK_STATE)

@@ -21,10 +21,7 @@ static void compare(const char *name, int n_set, const char *const *set, compari
   case_clear(&sc);
 }
 
-static bool on_one_orbit(const comparison_row *r)
-{
-  return comparison_one_orbit(r);
-}
+static bool on_one_orbit(const comparison_row *r) { return comparison_one_orbit(r); }
 
 /* ---- predictions ----------------------------------------------------------------------------------- */
 

@@ -223,7 +223,8 @@ static void a_solution_on_an_isola(CHECK_STATE)
 }
 
 /* Stopped: what was made is kept, with shares of that. */
-/* The comparison with a survey has a row of the isola's solution, and says of each that there is one motion elsewhere. */
+/* The comparison with a survey has a row of the isola's solution, and says of each that there is one motion elsewhere.
+ * */
 static void a_comparison_lists_the_isola(CHECK_STATE)
 {
   scene sc = case_scene("adversarial/isola", 0, NULL);

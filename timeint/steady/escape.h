@@ -15,8 +15,8 @@
 /* False where K has no direction without stiffness: nothing creeps. */
 bool timeint_may_creep(const timeint *ti);
 
-/* HC_UNBOUNDED where the motion is larger than any damped resonance, and than its start; HC_NOT_FINITE where numbers have overflown, which
- * is no growth. */
+/* HC_UNBOUNDED where the motion is larger than any damped resonance, and than its start; HC_NOT_FINITE where numbers
+ * have overflown, which is no growth. */
 hc_status escape_size(const timeint *ti);
 
 /* After some periods: their number, and the size of the motion, where the number has doubled since: true. */

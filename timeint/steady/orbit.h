@@ -34,6 +34,6 @@ hc_status orbit_report(timeint *ti, int k, timeint_method method, const shoot_re
  * integration answers. */
 hc_status orbit_report_none(timeint *ti, hc_status why, timeint_result *r);
 
-/* Keeps each response's least and largest amplitude of one period among the next ones, for results of a motion that does
- * not repeat; the motion stays where it is. */
+/* Keeps each response's least and largest amplitude of one period among the next ones, for results of a motion that
+ * does not repeat; the motion stays where it is. */
 hc_status orbit_watch(timeint *ti);
