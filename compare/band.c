@@ -24,11 +24,13 @@ enum {
 
 static const double first_step = 0.25, linear_step = 8 /* where amplitudes stand still */, longest_step = 1,
                     least_step = 1e-5, corner_step = 1e-2, plane_step = 0.05; /* [slip length] */
+/* [slip length] Room left to a limit: where the orbits of the closed form end, and of CVODE at worst. */
+static const double closest = 1e-11, close = 1e-8;
 static const double flat = 1e-9; /* [amplitude] what an extremum may rise farther, which truncation exceeds by far */
 static const double little_gain = 0.01; /* [band] of a line along the gradient: the last one */
-/* [metric] A step that moves contacts by more, and by more than three times what was predicted, is to another solution:
- * a fifth of a motion is far for a quarter of a slip length. */
-static const double near_enough = 0.2;
+/* [metric] A step that moves contacts by more than three times what was predicted, and by more than this, is to another
+ * solution, or over a corner: it is made shorter. */
+static const double near_enough = 0.05;
 
 /* A steady state of the family. */
 typedef struct member {
@@ -50,14 +52,15 @@ struct band_search {
   const hc_monitor *monitor;
   bool whole;     /* every line came to its end */
   int dimensions; /* the most free sliders of a member that is not linear */
-  long before, solves;
+  long solves;
   member here, next, inside, origin;
   member *best;    /* [responses][2] least, largest */
   member *waiting; /* [MOST_SETS] members with a set of free sliders that was met */
   int n_sets, n_done;
   double *size;           /* [contacts] [length] slip length */
   double *direction;      /* [contacts] of the line */
-  double *located;        /* [responses][2][contacts] where the exact law has the sliders at best[] */
+  bool *is_located;       /* [responses][2] */
+  double *located;        /* [responses][2][contacts] where the exact law has the sliders at an end that is located */
   double *x, *dx, *moved; /* [2 HBM_MAX_HARMONICS + 1] twice, [n_coef] */
   double *state, *tried;  /* [n_states] of the exact law */
   double (*room)[2];      /* [contacts] */
@@ -125,7 +128,8 @@ static void find_what_varies(band_search *b, const int *part)
     bool moves = false;
     for (int k = 0; k < m->n_contacts; ++k) {
       if (part[k] != part[j]) continue;
-      contacts += !contact_goes_on(m->contacts[k].pair);
+      const model_contact *c = &m->contacts[k];
+      contacts += !contact_goes_on(c->pair) || (c->pair == CONTACT_SECOND && !c->circle); /* of a square each tangent */
       moves |= !is_constant(&m->contacts[k].law);
     }
     b->varies[j] = moves && contacts > 1;
@@ -144,6 +148,7 @@ hc_status band_search_new(const model *m, hbm_solver *s, timeint *exact, band_se
   b->waiting = workspace_array(w, MOST_SETS, sizeof *b->waiting);
   b->size = workspace_doubles(w, contacts);
   b->direction = workspace_doubles(w, contacts);
+  b->is_located = workspace_array(w, 2 * (size_t)m->n_responses, sizeof *b->is_located);
   b->located = workspace_doubles(w, 2 * (size_t)m->n_responses * contacts);
   b->x = workspace_doubles(w, 2 * HBM_MAX_HARMONICS + 1);
   b->dx = workspace_doubles(w, 2 * HBM_MAX_HARMONICS + 1);
@@ -248,6 +253,17 @@ static hc_status solve_along(band_search *b, const member *from, double step, me
 
 static member *best_of(band_search *b, int r, bool high) { return &b->best[2 * r + high]; }
 
+/* Of a member whose contacts are linear: are lines along each rest all that there is to see? With two sliders of one
+ * tangent and no other contact the rests fill a polygon, since limits are linear in them; amplitudes are the same all
+ * over it, and it is left where the two limits of one slider meet. A line along the other rest comes there: it goes on
+ * along the border, the first slider being dragged. */
+static bool is_polygon(const band_search *b, const member *m)
+{
+  bool circle = false;
+  for (int j = 0; j < b->n_contacts; ++j) circle |= b->model->contacts[j].circle;
+  return !circle && m->n_free <= 2 && b->n_contacts == m->n_free;
+}
+
 /* A member: is it the best of a response, or the first with its free sliders? */
 static void take(band_search *b, const member *m)
 {
@@ -255,7 +271,7 @@ static void take(band_search *b, const member *m)
     if (m->A[r] < best_of(b, r, false)->A[r]) copy_member(b, m, best_of(b, r, false));
     if (m->A[r] > best_of(b, r, true)->A[r]) copy_member(b, m, best_of(b, r, true));
   }
-  if (!m->linear && m->n_free > b->dimensions) b->dimensions = m->n_free;
+  if (!(m->linear && is_polygon(b, m)) && m->n_free > b->dimensions) b->dimensions = m->n_free;
   for (int i = 0; i < b->n_sets; ++i)
     if (!memcmp(b->waiting[i].free, m->free, (size_t)b->n_contacts * sizeof *m->free)) return;
   if (b->n_sets == MOST_SETS) b->whole = false;
@@ -274,7 +290,7 @@ static bool pays(band_search *b, const member *from, const member *to, int r, bo
 }
 
 /* An extremum of response r between two neighbours of the line: its rate's root, by false position of Illinois. */
-static hc_status locate(band_search *b, const member *from, const member *to, int r, bool high)
+static hc_status locate(band_search *b, const member *from, const member *to, int r)
 {
   double low = 0, high_end = to->step - from->step, f_low = from->rate[r], f_high = to->rate[r];
   int side = 0;
@@ -284,7 +300,7 @@ static hc_status locate(band_search *b, const member *from, const member *to, in
     if (st != HC_OK) return st;
     take(b, &b->inside);
     const double f = b->inside.rate[r], width = high_end - low;
-    if (fabs(f) * width <= flat * b->inside.A[r] || width <= 1e-9) break;
+    if (fabs(f) * width <= flat * b->inside.A[r] || width <= 1e-9) return HC_OK;
     if ((f > 0) == (f_low > 0)) {
       low = at, f_low = f;
       if (side == -1) f_high *= 0.5;
@@ -295,7 +311,7 @@ static hc_status locate(band_search *b, const member *from, const member *to, in
       side = 1;
     }
   }
-  (void)high;
+  b->whole = false;
   return HC_OK;
 }
 
@@ -305,7 +321,7 @@ static hc_status locate_all(band_search *b, const member *from, const member *to
   for (int r = 0; r < b->n_responses && st == HC_OK; ++r)
     for (int high = 0; high < 2 && st == HC_OK; ++high)
       if (pays(b, from, to, r, high)) {
-        st = locate(b, from, to, r, high);
+        st = locate(b, from, to, r);
         if (st == HC_NO_MEMORY || st == HC_INTERRUPTED) return st;
         if (st != HC_OK) b->whole = false, st = HC_OK;
       }
@@ -480,7 +496,7 @@ static void update_slopes(int n, const double *s, const double *f, double *J)
 }
 
 /* Moves the sliders at their limit to where the exact law has it: the room left to each, in slip lengths, is brought to
- * 0 by Broyden's method, from slopes of -1. A slider beyond its limit is dragged back to it, and counts where it is. */
+ * 0 by Broyden's method, from slopes of -1 towards the limit. A slider beyond its limit is dragged back to it, and counts where it is. */
 static double locate_end(band_search *b, const member *m, int r, double *w, hc_status *st)
 {
   int held[MOST_HELD], pivot[MOST_HELD];
@@ -488,7 +504,7 @@ static double locate_end(band_search *b, const member *m, int r, double *w, hc_s
                        step[MOST_HELD], change[MOST_HELD], A = NAN;
   const int n = list_held(b, m, MOST_HELD, held), first = 2 * b->model->n;
   memcpy(w, m->w, (size_t)b->n_contacts * sizeof *w);
-  bool lower[MOST_HELD]; /* T is at -mu N: w is at its largest */
+  bool reached = false, lower[MOST_HELD]; /* T is at -mu N: w is at its largest */
   for (int i = 0; i < n; ++i) {
     lower[i] = m->asked[held[i]] > m->w[held[i]];
     J[i + n * i] = lower[i] ? -1 : 1;
@@ -503,7 +519,9 @@ static double locate_end(band_search *b, const member *m, int r, double *w, hc_s
       left[i] = b->room[j][lower[i]] / (b->model->contacts[j].law.kt * b->size[j]);
       most = fmax(most, left[i]);
     }
-    if (most <= 1e-11) break;
+    if (most <= closest) return A;
+    reached = most <= close;
+    if (k + 1 == MOST_CONFIRMED) break;
     for (int i = 0; i < n && k > 0; ++i) {
       step[i] = here[i] - at[(k + 1) % 2][i];
       change[i] = left[i] - room[(k + 1) % 2][i];
@@ -515,10 +533,12 @@ static double locate_end(band_search *b, const member *m, int r, double *w, hc_s
     dense_solve(n, lu, pivot, 1, step);
     for (int i = 0; i < n; ++i) w[held[i]] = b->size[held[i]] * (here[i] + step[i]);
   }
-  return A;
+  return reached ? A : NAN;
 }
 
-/* The extremum between limits: by a parabola through three orbits, twice, of one free slider. */
+/* The extremum between limits, of one free slider: parabolas through three orbits, each narrower than the one before;
+ * the best of all orbits. Of several sliders the orbit at the member's rests: what they are off by moves the extremum
+ * in second order. */
 static double locate_inside(band_search *b, const member *m, int r, bool high, double *w, hc_status *st)
 {
   int free = -1;
@@ -536,17 +556,17 @@ static double locate_inside(band_search *b, const member *m, int r, bool high, d
       if (!isnan(A[k + 1])) best = high ? fmax(best, A[k + 1]) : fmin(best, A[k + 1]);
     }
     const double bend = A[0] - 2 * A[1] + A[2], shift = 0.5 * (A[0] - A[2]) / bend;
-    if (!(fabs(shift) <= 8)) return best;
+    if (!(fabs(shift) <= 8 && (bend < 0) == high)) return best;
     middle += shift * by;
   }
   return best;
 }
 
-/* An earlier response whose extremum is the same end of the family: 2 q + high of it; -1: none. */
+/* An earlier response whose extremum is the same end of the family, and was located: 2 q + high of it; -1: none. */
 static int same_end(const band_search *b, const member *m)
 {
   for (const member *n = b->best; n < m; ++n) {
-    bool same = true;
+    bool same = b->is_located[n - b->best];
     for (int j = 0; j < b->n_contacts && same; ++j) same = fabs(m->w[j] - n->w[j]) <= 1e-9 * b->size[j];
     if (same) return (int)(n - b->best);
   }
@@ -559,16 +579,18 @@ static hc_status confirm(band_search *b, int r, bool high, double *amplitude)
   const member *m = best_of(b, r, high);
   const bool held = list_held(b, m, 1, &(int){0}) > 0;
   const int known = held ? same_end(b, m) : -1;
-  double *located = b->located + (size_t)(m - b->best) * (size_t)b->n_contacts;
+  const size_t contacts = (size_t)b->n_contacts, place = (size_t)(m - b->best);
+  double *located = b->located + place * contacts;
   hc_status st = HC_OK;
+  b->is_located[place] = false;
   hbm_start_sliders(b->s, m->asked);
   *amplitude = NAN;
   if (comparison_orbit_start(b->s, m->X, b->omega, b->state) != HC_OK) return HC_OK;
-  if (known >= 0)
-    memcpy(located, b->located + (size_t)known * (size_t)b->n_contacts, (size_t)b->n_contacts * sizeof *located);
+  if (known >= 0) memcpy(located, b->located + (size_t)known * contacts, contacts * sizeof *located);
   if (known >= 0) *amplitude = exact_amplitude(b, m, located, r, false, &st);
   else if (held) *amplitude = locate_end(b, m, r, located, &st);
   else *amplitude = locate_inside(b, m, r, high, located, &st);
+  b->is_located[place] = held && !isnan(*amplitude);
   return st;
 }
 
@@ -641,9 +663,8 @@ hc_status band_find(band_search *b, double omega, const double *X, const hc_moni
       double ends[2] = {NAN, NAN};
       for (int high = 0; high < 2 && b->exact && st == HC_OK; ++high) st = confirm(b, r, high, &ends[high]);
       out[r].confirmed = !isnan(ends[0]) && !isnan(ends[1]);
-      if (b->exact && !out[r].confirmed) out[r].kind = BAND_AT_LEAST;
-      if (!isnan(ends[0])) out[r].low = ends[0];
-      if (!isnan(ends[1])) out[r].high = ends[1];
+      if (out[r].confirmed) out[r].low = fmin(ends[0], ends[1]), out[r].high = fmax(ends[0], ends[1]);
+      else if (b->exact) out[r].kind = BAND_AT_LEAST;
     }
   }
   if (st != HC_OK && st != HC_NO_MEMORY && st != HC_INTERRUPTED) { /* nothing is known */
@@ -655,6 +676,4 @@ hc_status band_find(band_search *b, double omega, const double *X, const hc_moni
   return st;
 }
 
-const double *band_rests(const band_search *b, int r, bool high) { return b->n_sets ? b->best[2 * r + high].w : NULL; }
-const double *band_member(const band_search *b, int r, bool high) { return b->n_sets ? b->best[2 * r + high].X : NULL; }
 long band_solves(const band_search *b) { return b->solves; }

@@ -46,10 +46,5 @@ void band_search_free(band_search *b); /* NULL is allowed */
  * HC_NO_MEMORY, HC_INTERRUPTED. The solver's sliders begin at 0 again afterwards. */
 hc_status band_find(band_search *b, double omega, const double *X, const hc_monitor *monitor, band *out);
 
-/* Where the free sliders rest at the least (false) or largest (true) amplitude of response r, of the last search:
- * w[contacts], and the harmonics there, coefficients of hbm_solver. NULL: nothing was searched. */
-const double *band_rests(const band_search *b, int r, bool high);
-const double *band_member(const band_search *b, int r, bool high);
-
 /* Systems that Newton was put to in all searches. */
 long band_solves(const band_search *b);

@@ -96,7 +96,9 @@ static hc_status follow_start(survey_work *w, timeint *ti, int i, const hc_monit
     r[k] = r[0];
     if (motion_is_measured(w->status[i]) && st == HC_OK) st = timeint_response(ti, k, &r[k]);
   }
-  return st == HC_NO_MEMORY ? st : HC_OK;
+  if (st == HC_OK || st == HC_NO_MEMORY) return st;
+  w->made[i] = false; /* the periods could not be followed again: no row may hold another response's numbers */
+  return st == HC_INTERRUPTED ? st : HC_OK;
 }
 
 /* For workers_run. With a handle of its own: no result depends on what was followed before. */
@@ -489,7 +491,8 @@ double survey_seconds(const compare_setup *setup, int starts)
   double *state = calloc((size_t)timeint_n_states(ti), sizeof *state);
   const double began = thread_seconds();
   work_limit limit = {.until = began + patience};
-  for (int i = 0; i < timed && state; ++i) {
+  int done = 0;
+  for (int i = 0; i < timed && state && thread_seconds() < limit.until; ++i, ++done) {
     timeint_result r;
     timeint_rest(ti, state);
     timeint_steady(ti, at->v[(2 * i + 1) * at->n / (2 * timed)], state, &(hc_monitor){work_limit_tick, &limit}, &r);
@@ -497,5 +500,5 @@ double survey_seconds(const compare_setup *setup, int starts)
   const double seconds = thread_seconds() - began;
   free(state);
   timeint_free(ti);
-  return seconds / timed * at->n * starts;
+  return done > 0 ? seconds / done * at->n * starts : 0;
 }

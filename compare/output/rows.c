@@ -74,10 +74,10 @@ static const char *stability_text(int s) { return s > 0 ? "stable" : s < 0 ? "un
     yes_no(of))
 #define DRIFT(X, status, of) X(ALL, REAL, drift, "length", "of what creeps, per period", (status) == HC_CREEPS, of)
 #define BAND(X, where, of) \
-  X(where, REAL, band_low, "length", "least amplitude of the steady states that differ by where sliders rest", true, \
-    (of).low) \
-  X(where, REAL, band_high, "length", "and the largest", true, (of).high) \
-  X(where, REAL, band_width, "1", "(high - low)/(high + low)", true, band_width(&(of))) \
+  X(where, REAL, band_low, "length", "least amplitude of the steady states that differ by where sliders rest", \
+    (of).kind >= BAND_EXACT, (of).low) \
+  X(where, REAL, band_high, "length", "and the largest", (of).kind >= BAND_EXACT, (of).high) \
+  X(where, REAL, band_width, "1", "(high - low)/(high + low)", (of).kind >= BAND_EXACT, band_width(&(of))) \
   X(where, TEXT, band_kind, "", "exact: all were seen; at least: more may be wider; none: no slider is free", \
     (of).kind != BAND_NOT_ASKED, band_kind_name((of).kind))
 #define PEAK_FREQUENCY(X) \

@@ -23,6 +23,7 @@ static hc_status double_capacity(hbm_curve *c)
 
 hc_status hbm_curve_append(hbm_curve *c, int n_coef, const double *X, const double *dX, const hbm_point *point)
 {
+  if (c->n > 0 && c->n_coef != n_coef) return HC_BUG;
   c->n_coef = n_coef;
   if (c->n == c->cap && double_capacity(c) != HC_OK) return HC_NO_MEMORY;
   size_t row = (size_t)n_coef * sizeof(double);

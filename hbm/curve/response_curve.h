@@ -56,8 +56,8 @@ typedef struct hbm_curve { /* made empty with {0}, freed by hbm_curve_free */
   long iterations, evaluations;   /* Newton iterations and contact force evaluations, rejected steps included */
 } hbm_curve;
 
-/* One more point, X[n_coef] and dX[n_coef] copied; n_coef is that of the curve's other points. HC_NO_MEMORY leaves the
- * curve as it was. */
+/* One more point, X[n_coef] and dX[n_coef] copied; n_coef is that of the curve's other points. HC_NO_MEMORY, and HC_BUG
+ * for another n_coef, leave the curve as it was. */
 hc_status hbm_curve_append(hbm_curve *curve, int n_coef, const double *X, const double *dX, const hbm_point *point);
 
 /* Declares the first `settled` points final: calls watch.added with the new ones among them, and returns its status. */

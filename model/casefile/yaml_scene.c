@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "model/casefile/case_reader.h"
+#include "numerics/norm.h"
 
 /* A section that is a mapping. */
 static hc_status read_section(case_reader *r, const field_section *s, const yaml_node_t *node)
@@ -58,6 +59,12 @@ hc_status yaml_rests_read(case_reader *r)
     const int j = key->type == YAML_SCALAR_NODE ? contact_of(r->sc.structure, key) : -1;
     if (j < 0) return yaml_refuse(r, key, "transient.rest: no such contact, expected a name or a number from 0");
     const bool both = value->type == YAML_SEQUENCE_NODE && yaml_length(value) == 2;
+    const structure_contact *c = &r->sc.structure->contacts[j];
+    const contact law = scene_contact_law(&c->given);
+    if (!field_is_of_law(fields[0], &c->given) || !contact_has_friction(&law))
+      return yaml_refuse(r, key, "transient.rest: contact %d has no slider, expected one with friction", j);
+    if (both && (scene_is_oscillator(&r->sc) || is_zero(r->sc.structure->n, c->tangent_2)))
+      return yaml_refuse(r, value, "transient.rest: contact %d has one tangent, expected one number", j);
     for (int d = 0; d < 1 + both && st == HC_OK; ++d)
       st = yaml_scene_value(r, fields[d], j, &r->sc.structure->contacts[j].given,
                             both ? yaml_entry(r, value, d) : value);

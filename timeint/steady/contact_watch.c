@@ -49,8 +49,9 @@ static double motion_of(const contact_watch *w, const double *q, int j, double u
 static void find_rooms(const law_regularised *law, bool circle, const planar_value *value, contact_instant *at)
 {
   const double limit = law->mu * value->n, of_limit = law->mu * law->kn * at->dv;
-  const double pull = circle ? at->pull : value->t[0],
-               rate = circle ? law->kt * law->kt * at->du / at->pull : law->kt * at->du;
+  const double pull = circle ? at->pull : value->t[0], rate = !circle    ? law->kt * at->du
+                                                              : pull > 0 ? law->kt * law->kt * at->du / pull
+                                                                         : 0;
   for (int s = 0; s < 2; ++s) {
     const double sign = circle || s == 0 ? 1 : -1;
     at->room[s] = limit - sign * pull;

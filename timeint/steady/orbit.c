@@ -121,10 +121,10 @@ hc_status orbit_watch(timeint *ti)
       ti->window.high[i] = k ? fmax(ti->window.high[i], amplitude) : amplitude;
     }
   }
-  ti->window.periods = PERIODS;
+  ti->window.periods = st == HC_OK ? PERIODS : 0;
   ti->periods = before;
   timeint_restore(ti);
-  return st;
+  return st == HC_NO_MEMORY || st == HC_INTERRUPTED ? st : HC_OK; /* what the motion is does not depend on it */
 }
 
 hc_status orbit_report_none(timeint *ti, hc_status why, timeint_result *r)

@@ -289,8 +289,9 @@ hc_status settle_by_integration(timeint *ti, const hc_monitor *monitor, timeint_
     if ((st = measure_orbit(ti, k, &p, r)) != HC_OK || r->period_multiple > 0) return st;
   }
   const hc_status why = creeps ? HC_CREEPS : escape_grows(ti) ? HC_UNBOUNDED : HC_NOT_SETTLED;
-  if (st == HC_OK && why == HC_NOT_SETTLED) st = orbit_watch(ti);
-  if (st == HC_OK && (creeps || ti->periods < most || isnan(r->amplitude))) st = measure_orbit(ti, 1, &p, r);
+  const bool measures = creeps || ti->periods < most || isnan(r->amplitude);
+  if (st == HC_OK && measures && why == HC_NOT_SETTLED) st = orbit_watch(ti);
+  if (st == HC_OK && measures) st = measure_orbit(ti, 1, &p, r);
   if (st == HC_OK && r->period_multiple == 0) st = why;
   TRACE(steady, "omega %.9g: marched %d periods, closure %.3g: %s", ti->omega, ti->periods, r->closure,
         hc_status_text(st));
