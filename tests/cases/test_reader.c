@@ -89,7 +89,7 @@ static void refused_as_it_stands(const mistake *m) { refused(m->text, NULL, m->a
 
 static void mistakes_are_named_where_they_stand(CHECK_STATE)
 {
-  each_mistake("lines", 99, refused_after_the_smallest);
+  each_mistake("lines", 103, refused_after_the_smallest);
   each_mistake("files", 19, refused_as_it_stands);
 }
 
