@@ -45,6 +45,7 @@ typedef struct survey_work {
   hc_status *status;
   int *motion;             /* the first start of the same motion */
   double *states;          /* [starts][n_states] where it ended */
+  double (*began)[2];      /* [starts] x and v of one degree of freedom; else NULL */
   timeint_result *results; /* [starts][n_responses] */
   /* HBM solutions, those found beside the curve behind the others; each with its mirror image behind it, where the
    * model has such */
@@ -88,6 +89,7 @@ static hc_status follow_start(survey_work *w, timeint *ti, int i, const hc_monit
 {
   timeint_result *r = result_of(w, i);
   if (i == 0 || i > w->n_given) survey_starts_draw(w->starts, i, state_of(w, i));
+  if (w->began) memcpy(w->began[i], state_of(w, i), sizeof w->began[i]);
   hc_status st = w->status[i] = timeint_steady(ti, w->omega, state_of(w, i), monitor, r);
   if (st == HC_NO_MEMORY || st == HC_INTERRUPTED) return st;
   w->made[i] = true;
@@ -319,15 +321,32 @@ static int by_share(const void *a, const void *b)
   return x->starts != y->starts ? (x->starts < y->starts) - (x->starts > y->starts) : x->motion - y->motion;
 }
 
+/* The starts that came to motion m, of which `first` is the first one; for them there is room. */
+static void add_starts(survey_work *w, int m, int first)
+{
+  const double part = w->setup->model->responses[0];
+  survey *out = w->out;
+  for (int i = first; i < w->how->starts; ++i)
+    if (w->made[i] && w->motion[i] == first)
+      out->starts[out->n_starts++] = (survey_start){w->omega, part * w->began[i][0], part * w->began[i][1], m};
+}
+
 /* Numbers the rows[n] of the motions, each of which has its first start as `motion`, and appends those of all their
  * responses. */
 static hc_status add_rows(survey_work *w, int n, survey_row *rows)
 {
   survey *out = w->out;
-  if (n > 0) qsort(rows, (size_t)n, sizeof *rows, by_share);
+  if (n == 0) return HC_OK;
+  qsort(rows, (size_t)n, sizeof *rows, by_share);
   survey_row *grown = growing_by(out->rows, out->n_rows, n * w->n_responses, sizeof *grown);
   if (!grown) return HC_NO_MEMORY;
   out->rows = grown;
+  if (w->began) {
+    survey_start *more = growing_by(out->starts, out->n_starts, w->how->starts, sizeof *more);
+    if (!more) return HC_NO_MEMORY;
+    out->starts = more;
+    for (int m = 0; m < n; ++m) add_starts(w, m, rows[m].motion);
+  }
   for (int m = 0; m < n; ++m)
     for (int k = 0; k < w->n_responses; ++k) {
       const int start = rows[m].motion;
@@ -379,6 +398,7 @@ static hc_status prepare(survey_work *w)
   w->motion = workspace_array(&w->memory, n, sizeof *w->motion);
   w->states = workspace_doubles(&w->memory, n * (size_t)w->n_states);
   w->results = workspace_array(&w->memory, n * (size_t)w->n_responses, sizeof *w->results);
+  if (w->setup->model->n == 1) w->began = workspace_array(&w->memory, n, sizeof *w->began);
   st = w->memory.failed ? HC_NO_MEMORY : HC_OK;
   if (st == HC_OK) timeint_rest(ti, w->states);
   if (st == HC_OK)
@@ -475,6 +495,7 @@ int survey_others(const survey *s, int from)
 void survey_clear(survey *s)
 {
   free(s->rows);
+  free(s->starts);
   hbm_curve_free(&s->beside);
   *s = (survey){0};
 }

@@ -31,10 +31,19 @@ typedef struct survey_row {
   double hbm_error; /* [1] waveform of the first response against that one, as a comparison has it; else NaN */
 } survey_row;
 
+/* Of a model of one degree of freedom: where a start began, by the first response. */
+typedef struct survey_start {
+  double omega; /* [rad/time] */
+  double x, v;  /* [length], [length/time] at t = 0; its sliders are not kept */
+  int motion;   /* that it came to, as in the rows of omega */
+} survey_start;
+
 typedef struct survey { /* made empty with {0}; results of further frequencies are appended */
   int n_rows;
   survey_row *rows; /* of a frequency by motion, of a motion by response */
-  hbm_curve beside; /* solutions that the curves do not come to, for survey_append_beside */
+  int n_starts;
+  survey_start *starts; /* of a frequency by motion, those that were made; NULL: of several degrees of freedom */
+  hbm_curve beside;     /* solutions that the curves do not come to, for survey_append_beside */
 } survey;
 
 /* Steady states at omega, appended to *out. at: the curve's solutions there (hbm_curve_at), which may be none; hbm

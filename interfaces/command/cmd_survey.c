@@ -35,6 +35,7 @@ static const cli_option options[] = {
     {CLI_INTEGER, "jobs", "N", "Threads; results are the same [one a processor]", offsetof(survey_options, jobs), 1,
      CLI_MAX_JOBS, .letter = 'j'},
     CLI_RESPONSE_OPTION(survey_options),
+    CLI_PLOT_OPTION,
     {0},
 };
 
@@ -146,7 +147,9 @@ static int run_survey(cli_common *common, void *given, scene *sc)
   progress_end(bar);
   cli_ended(common, st);
   table *t = table_of_found(&so_far, st, &code);
-  const int written = st == HC_OK || found.n_rows ? cli_write_rest(common, 1, &t, &so_far.shown.begun) : 0;
+  int written = st == HC_OK || found.n_rows ? cli_write_rest(common, 1, &t, &so_far.shown.begun) : 0;
+  if (common->drawing.path && found.n_rows && !written)
+    written = cli_plotted(common, plot_survey(&common->drawing, sc, &found));
   table_free(t);
   shown_rows_end(&so_far.shown);
   survey_clear(&found);

@@ -76,6 +76,9 @@ static void check_shares(const surveyed *s, int starts)
     n += r->starts;
   }
   assert_int_equal(n, starts);
+  for (int i = 0; i < s->found.n_rows && s->found.n_starts; ++i)
+    for (int k = 0; k < s->found.n_starts; ++k) n -= s->found.starts[k].motion == i;
+  assert_int_equal(n, s->found.n_starts ? 0 : starts);
   CHECK_NEAR(share, 1, s->found.n_rows * DBL_EPSILON, "sum of %d shares", s->found.n_rows);
 }
 
@@ -95,6 +98,30 @@ static void sub_harmonics_of_case_2(CHECK_STATE)
   row_of(&s.found, "aperiodic");
   check_shares(&s, SURVEY_STARTS);
   clear(&s);
+}
+
+/* Where they began, not where they ended: at rest the first one; a start on the orbit of a solution comes to it. */
+static void starts_are_kept(CHECK_STATE)
+{
+  const scene sc = case_scene("paper/case2", 0, NULL), pair = case_scene("bands/bilinear_pair", 0, NULL);
+  const double w = 9, re = 40 - w * w, im = 0.4 * w, size = 100 / (re * re + im * im);
+  surveyed s = run(&sc, w, 40, 2, NULL), of_two = run(&pair, 2.473, 4, 1, NULL);
+  int at_rest = 0, on_orbit = 0;
+  assert_int_equal(s.found.n_starts, 40);
+  for (int i = 0; i < s.found.n_starts; ++i) {
+    const survey_start *b = &s.found.starts[i];
+    assert_true(b->omega == w && b->motion >= 0 && b->motion < s.found.n_rows);
+    at_rest += b->x == 0 && b->v == 0;
+    /* x = Re(X e^{i w t}), X = F/(K - M w^2 + i C w), which never touches */
+    if (!(fabs(b->x - size * re) <= 1e-8 && fabs(b->v - w * size * im) <= 1e-8)) continue;
+    CHECK_NEAR(s.found.rows[b->motion].steady.result.amplitude, 100 / hypot(re, im), 1e-8, "amplitude");
+    ++on_orbit;
+  }
+  assert_int_equal(at_rest, 1);
+  assert_int_equal(on_orbit, 1);
+  assert_int_equal(of_two.found.n_starts, 0);
+  clear(&s);
+  clear(&of_two);
 }
 
 /* Two stable branches from the grazing turn 7.337183 to the fold 9.2098, one outside. The lower one never touches:
@@ -287,6 +314,6 @@ static void starts_are_admissible(CHECK_STATE)
   scene_setup_clear(&setup);
 }
 
-CHECK_TESTS("compare.survey", 60, sub_harmonics_of_case_2, two_branches_of_case_2, threads_change_nothing,
-            a_family_is_one_motion, a_solution_beside_the_curve, a_solution_on_an_isola, a_comparison_lists_the_isola,
-            a_large_start_is_no_escape, a_stop_keeps_what_was_made, starts_are_admissible)
+CHECK_TESTS("compare.survey", 60, sub_harmonics_of_case_2, starts_are_kept, two_branches_of_case_2,
+            threads_change_nothing, a_family_is_one_motion, a_solution_beside_the_curve, a_solution_on_an_isola,
+            a_comparison_lists_the_isola, a_large_start_is_no_escape, a_stop_keeps_what_was_made, starts_are_admissible)

@@ -10,6 +10,7 @@
 
 #include "compare/output/output.h"
 #include "compare/output/progress.h"
+#include "model/casefile/scene.h"
 #include "numerics/base/utf8.h"
 
 /* ---- gnuplot: a child process, without a shell; script and drawing are temporary files: no pipe can fill or break */
@@ -408,6 +409,15 @@ const char *figure_unit(const scene *sc, const char *unit, char text[FIGURE_UNIT
     unit += skip;
   }
   return text;
+}
+
+void figure_response_name(const scene *sc, int r, char text[RESPONSE_NAME])
+{
+  char name[RESPONSE_NAME];
+  structure_response_name(sc->structure, r, name, sizeof name);
+  const bool number = strspn(name, "0123456789") == strlen(name);
+  if (number) snprintf(text, RESPONSE_NAME, "DOF %.*s", RESPONSE_NAME - 5, name);
+  else snprintf(text, RESPONSE_NAME, "%s", name);
 }
 
 #define CELL_NUMBER "%.3g"

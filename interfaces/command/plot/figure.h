@@ -77,6 +77,9 @@ void figure_log(figure *g, const char *axis);
 enum { FIGURE_UNIT = 64 };
 const char *figure_unit(const scene *sc, const char *unit, char text[FIGURE_UNIT]);
 
+/* Response r in words that a label can say; "x" of an oscillator. */
+void figure_response_name(const scene *sc, int r, char text[RESPONSE_NAME]);
+
 /* A point of a series of cells, which figure_heat draws in the place of figure_draw; characters of its number. */
 int figure_cell(figure *g, int column, int row, double value);
 /* The cells, low <= value <= high; numbered: each with its number. Axes and tics are the caller's. */

@@ -96,21 +96,11 @@ static double distance(const curve_point *p, const curve_point *a, const curve_p
   return sqrt(sq(px - along * bx) + sq(py - along * by));
 }
 
-/* Response r in words that a label can say; "x" of an oscillator. */
-static void curve_response_name(const scene *sc, int r, char text[RESPONSE_NAME])
-{
-  char name[RESPONSE_NAME];
-  structure_response_name(sc->structure, r, name, sizeof name);
-  const bool number = strspn(name, "0123456789") == strlen(name);
-  if (number) snprintf(text, RESPONSE_NAME, "DOF %.*s", RESPONSE_NAME - 5, name);
-  else snprintf(text, RESPONSE_NAME, "%s", name);
-}
-
 /* The shape of a curve that was computed, by the model's first response. */
 static hc_status curve_shape_of(const scene *sc, hbm_solver *s, const hbm_curve *curve, curve_shape *out)
 {
   *out = (curve_shape){.harmonics = hbm_n_harmonics(s), .samples = hbm_n_samples(s)};
-  curve_response_name(sc, 0, out->of);
+  figure_response_name(sc, 0, out->of);
   out->low = fmin(sc->omega_from, sc->omega_to);
   out->high = fmax(sc->omega_from, sc->omega_to);
   hc_status st = sample_curve(s, curve, (drawn_as){0, true}, &out->points, &out->n);
@@ -143,7 +133,7 @@ static hc_status curve_shape_response(const curve_shape *first, const scene *sc,
   *out = *first;
   out->points = NULL;
   out->special = malloc(((size_t)first->n_special + 1) * sizeof *out->special);
-  curve_response_name(sc, r, out->of);
+  figure_response_name(sc, r, out->of);
   hc_status st = out->special ? sample_curve(s, curve, (drawn_as){r, false}, &out->points, &out->n) : HC_NO_MEMORY;
   if (st != HC_OK) return st;
   for (int k = 0; k < out->n; ++k) out->points[k].stable = first->points[k].stable;
@@ -527,7 +517,7 @@ static hc_status plot_waves(plot_order *p, const scene *sc, const steady_states 
            sc->in_cycles ? "" : "ω = ", scene_frequency(sc, omega), sc->in_cycles ? "cycles" : "rad", sc->unit_time,
            TWO_PI / omega, sc->unit_time);
   figure_title(&g, "set title", sc->title, about);
-  curve_response_name(sc, 0, of);
+  figure_response_name(sc, 0, of);
   figure_set(&g, "ylabel", "%s [%s]", of, sc->unit_length);
   figure_below(&g, "t / T");
   figure_script(&g, "set xrange [0:1]\n");

@@ -13,6 +13,7 @@
 #include "compare/comparison.h"
 #include "compare/steady_states.h"
 #include "compare/study/store.h"
+#include "compare/survey.h"
 #include "compare/verify/verify.h"
 #include "hbm/forces/given_motion.h"
 #include "hbm/hbm.h"
@@ -46,6 +47,10 @@ hc_status plot_compare(plot_order *p, const scene *sc, const comparison *c, cons
 
 /* By the first response: at one frequency the motion, at several the amplitudes on the curve. */
 hc_status plot_transient(plot_order *p, const scene *sc, const steady_states *found);
+
+/* Which start goes where, and the motions that they come to, in the plane (x, v/omega) of one degree of freedom; a panel
+ * for each of up to four frequencies. */
+hc_status plot_survey(plot_order *p, const scene *sc, const survey *s);
 
 /* Contacts under a given motion. */
 typedef struct plot_motion {
