@@ -1,4 +1,5 @@
-/* band.c - see band.h. Lengths along a line: of a slider by its own slip length, mu N/kt with the mean of its N. */
+/* band.c - see band.h. Lengths along a line: of a slider by its own slip length, mu N/kt with the mean of its largest
+ * and its least N. */
 #include "compare/band.h"
 
 #include <math.h>
@@ -22,15 +23,21 @@ enum {
   MOST_CONFIRMED = 12 /* orbits that locate an end */
 };
 
-static const double first_step = 0.25, linear_step = 8 /* where amplitudes stand still */, longest_step = 1,
-                    least_step = 1e-5, corner_step = 1e-2, plane_step = 0.05; /* [slip length] */
-/* [slip length] Room left to a limit: where the orbits of the closed form end, and of CVODE at worst. */
-static const double closest = 1e-11, close = 1e-8;
-static const double flat = 1e-9; /* [amplitude] what an extremum may rise farther, which truncation exceeds by far */
-static const double little_gain = 0.01; /* [band] of a line along the gradient: the last one */
+/* Steps along a line [slip length]. */
+static const double first_step = 0.25;  /* where nothing is known of the family's bends */
+static const double longest_step = 1;   /* the largest between two members, where extrema are looked for by rates */
+static const double linear_step = 8;    /* while no contact changes its state: limits are linear in rests */
+static const double least_step = 1e-5;  /* a line that needs shorter ones is given up */
+static const double corner_step = 1e-2; /* over a corner: an extremum nearer to it than that is missed */
+static const double plane_step = 0.05;  /* the same at the limits of two tangents, which are all corners */
+
 /* [metric] A step that moves contacts by more than three times what was predicted, and by more than this, is to another
  * solution, or over a corner: it is made shorter. */
 static const double near_enough = 0.05;
+/* [slip length] Distance to a limit where it counts as reached: by orbits of the closed form; by any. */
+static const double at_limit = 1e-11, about_at_limit = 1e-8;
+static const double flat = 1e-9;        /* [amplitude] an extremum is located to this; truncation is larger */
+static const double little_gain = 0.01; /* [band] climbing ends with a line that gains less */
 
 /* A steady state of the family. */
 typedef struct member {
@@ -51,7 +58,7 @@ struct band_search {
   double omega;
   const hc_monitor *monitor;
   bool whole;     /* every line came to its end */
-  int dimensions; /* the most free sliders of a member that is not linear */
+  int dimensions; /* the most free sliders of a member where lines do not see all (is_polygon) */
   long solves;
   member here, next, inside, origin;
   member *best;    /* [responses][2] least, largest */
@@ -62,7 +69,7 @@ struct band_search {
   bool *is_located;       /* [responses][2] */
   double *located;        /* [responses][2][contacts] where the exact law has the sliders at an end that is located */
   double *x, *dx, *moved; /* [2 HBM_MAX_HARMONICS + 1] twice, [n_coef] */
-  double *state, *tried;  /* [n_states] of the exact law */
+  double *state;          /* [n_states] of the exact law */
   double (*room)[2];      /* [contacts] */
   contact_period *periods;
   bool *varies;     /* [contacts] in a part whose amplitudes may depend on rests */
@@ -156,7 +163,6 @@ hc_status band_search_new(const model *m, hbm_solver *s, timeint *exact, band_se
   b->periods = workspace_array(w, contacts, sizeof *b->periods);
   b->varies = workspace_array(w, contacts, sizeof *b->varies);
   b->state = workspace_doubles(w, exact ? (size_t)timeint_n_states(exact) : 0);
-  b->tried = workspace_doubles(w, exact ? (size_t)timeint_n_states(exact) : 0);
   int *part = workspace_array(w, contacts, sizeof *part);
   hc_status st = w->failed ? HC_NO_MEMORY : model_parts_of_contacts(m, part);
   if (st == HC_OK) find_what_varies(b, part);
@@ -278,7 +284,7 @@ static void take(band_search *b, const member *m)
   else copy_member(b, m, &b->waiting[b->n_sets++]);
 }
 
-/* Would an extremum between the two, by the cubic through amplitudes and rates, beat the best? */
+/* Could an extremum between the two, by amplitudes and rates at both, beat the best? */
 static bool pays(band_search *b, const member *from, const member *to, int r, bool high)
 {
   const double span = to->step - from->step, sign = high ? 1 : -1;
@@ -496,7 +502,8 @@ static void update_slopes(int n, const double *s, const double *f, double *J)
 }
 
 /* Moves the sliders at their limit to where the exact law has it: the room left to each, in slip lengths, is brought to
- * 0 by Broyden's method, from slopes of -1 towards the limit. A slider beyond its limit is dragged back to it, and counts where it is. */
+ * 0 by Broyden's method, from slopes of -1 towards the limit. A slider beyond its limit is dragged back to it, and
+ * counts where it is. */
 static double locate_end(band_search *b, const member *m, int r, double *w, hc_status *st)
 {
   int held[MOST_HELD], pivot[MOST_HELD];
@@ -519,8 +526,8 @@ static double locate_end(band_search *b, const member *m, int r, double *w, hc_s
       left[i] = b->room[j][lower[i]] / (b->model->contacts[j].law.kt * b->size[j]);
       most = fmax(most, left[i]);
     }
-    if (most <= closest) return A;
-    reached = most <= close;
+    if (most <= at_limit) return A;
+    reached = most <= about_at_limit;
     if (k + 1 == MOST_CONFIRMED) break;
     for (int i = 0; i < n && k > 0; ++i) {
       step[i] = here[i] - at[(k + 1) % 2][i];
@@ -612,7 +619,7 @@ static hc_status begin(band_search *b, double omega, const double *X)
   return look_at(b, &b->origin);
 }
 
-/* Slip lengths, by the mean of each slider's normal force. */
+/* Slip lengths, by the mean of the largest and the least normal force. */
 static hc_status find_sizes(band_search *b)
 {
   const hc_status st = hbm_measure_contacts(b->s, b->omega, b->origin.X, b->periods);

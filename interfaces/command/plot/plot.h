@@ -48,8 +48,8 @@ hc_status plot_compare(plot_order *p, const scene *sc, const comparison *c, cons
 /* By the first response: at one frequency the motion, at several the amplitudes on the curve. */
 hc_status plot_transient(plot_order *p, const scene *sc, const steady_states *found);
 
-/* Which start goes where, and the motions that they come to, in the plane (x, v/omega) of one degree of freedom; a panel
- * for each of up to four frequencies. */
+/* Which start goes where, and the motions that they come to, in the plane (x, v/omega) of one degree of freedom; a
+ * panel for each of up to four frequencies. */
 hc_status plot_survey(plot_order *p, const scene *sc, const survey *s);
 
 /* Contacts under a given motion. */
