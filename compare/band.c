@@ -556,7 +556,7 @@ static double locate_inside(band_search *b, const member *m, int r, bool high, d
   if (free < 0 || free >= b->n_contacts) return best;
   double middle = w[free], by = 0.03 * b->size[free];
   for (int i = 0; i < 3 && *st == HC_OK && !isnan(best); ++i, by /= 8) {
-    double A[3];
+    double A[3] = {NAN, NAN, NAN};
     for (int k = -1; k <= 1 && *st == HC_OK; ++k) {
       w[free] = middle + k * by;
       A[k + 1] = exact_amplitude(b, m, w, r, false, st);
