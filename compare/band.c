@@ -125,8 +125,9 @@ static hc_status make_members(band_search *b)
 
 static bool is_constant(const contact *law) { return law->smooth == CONTACT_KINKED && !(law->kn > 0); }
 
-/* Of each contact: may the amplitude of its part depend on where sliders rest? Only if the part has two contacts at
- * least, of which one has a normal force or a gap that a mean moves, or a law that is not one of friction. */
+/* varies[j]: the amplitude of contact j's part may depend on where sliders rest. It does only if the part has two
+ * contacts at least, and one of them a normal force or a gap that a mean moves, or a law that is not one of friction.
+ * */
 static void find_what_varies(band_search *b, const int *part)
 {
   const model *m = b->model;
@@ -259,10 +260,10 @@ static hc_status solve_along(band_search *b, const member *from, double step, me
 
 static member *best_of(band_search *b, int r, bool high) { return &b->best[2 * r + high]; }
 
-/* Of a member whose contacts are linear: are lines along each rest all that there is to see? With two sliders of one
- * tangent and no other contact the rests fill a polygon, since limits are linear in them; amplitudes are the same all
- * over it, and it is left where the two limits of one slider meet. A line along the other rest comes there: it goes on
- * along the border, the first slider being dragged. */
+/* Do lines along each rest show all members with these free sliders, while no contact changes its state? With two
+ * sliders of one tangent and no other contact the rests fill a polygon, since limits are linear in them; amplitudes are
+ * the same all over it, and it is left where the two limits of one slider meet. A line along the other rest comes
+ * there: it goes on along the border, the first slider being dragged. */
 static bool is_polygon(const band_search *b, const member *m)
 {
   bool circle = false;
@@ -464,8 +465,17 @@ static hc_status climb(band_search *b, int r, bool high)
 
 /* ---- by the exact law ------------------------------------------------------------------------------------ */
 
-/* Amplitude of response r on the exact law's orbit next to b->state, where its sliders are at w; NaN: there is none.
- * b->state becomes a point on it; room: of its free sliders. */
+/* Contacts with a free slider: of two tangents under one limit one. */
+static int count_free_contacts(const band_search *b, const member *m)
+{
+  int n = 0;
+  for (int j = 0; j < b->n_contacts; ++j)
+    n += m->free[j] && !(b->model->contacts[j].circle && b->model->contacts[j].pair == CONTACT_SECOND);
+  return n;
+}
+
+/* Amplitude of response r on the exact law's orbit next to b->state, where its sliders are at w; NaN: there is none on
+ * which all of them are free. b->state becomes a point on it; room: of its free sliders. */
 static double exact_amplitude(band_search *b, const member *m, const double *w, int r, bool rooms, hc_status *st)
 {
   timeint_result found;
@@ -476,7 +486,8 @@ static double exact_amplitude(band_search *b, const member *m, const double *w, 
   if (sought == HC_OK && rooms) sought = timeint_slider_rooms(b->exact, &found, b->room);
   if (sought == HC_OK && r > 0) sought = timeint_response(b->exact, r, &found);
   if (sought == HC_NO_MEMORY || sought == HC_INTERRUPTED) *st = sought;
-  const bool same = sought == HC_OK && found.period_multiple == 1 && fabs(found.amplitude - m->A[r]) <= 0.2 * m->A[r];
+  const bool same = sought == HC_OK && found.period_multiple == 1 && found.free_sliders >= count_free_contacts(b, m) &&
+                    fabs(found.amplitude - m->A[r]) <= 0.2 * m->A[r];
   return same ? found.amplitude : NAN;
 }
 
@@ -612,7 +623,7 @@ static hc_status begin(band_search *b, double omega, const double *X)
   b->whole = true;
   b->dimensions = b->n_sets = b->n_done = 0;
   memset(b->direction, 0, (size_t)b->n_contacts * sizeof *b->direction);
-  memset(b->origin.asked, 0, (size_t)b->n_contacts * sizeof *b->origin.asked);
+  for (int j = 0; j < b->n_contacts; ++j) b->origin.asked[j] = b->model->contacts[j].rest;
   memcpy(b->origin.X, X, (size_t)b->n_coef * sizeof *X);
   b->origin.step = 0;
   hbm_start_sliders(b->s, NULL);

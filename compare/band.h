@@ -21,7 +21,7 @@
 typedef enum band_kind { BAND_NOT_ASKED, BAND_NONE /* there is no free slider */, BAND_EXACT, BAND_AT_LEAST } band_kind;
 const char *band_kind_name(band_kind kind); /* "none", "exact", "at least"; "" if it was not asked */
 
-/* Of one response. */
+/* One response's. */
 typedef struct band {
   band_kind kind;
   double low, high; /* [length] the least and the largest amplitude; NaN: not known */

@@ -41,6 +41,16 @@ typedef struct compare_setup {
   int jobs; /* threads for the tables of accuracy.h; 0 and 1: the calling one alone */
 } compare_setup;
 
+/* While what was found changes, for who looks at it meanwhile. */
+static inline void compare_lock(const compare_setup *setup)
+{
+  if (setup->found) pthread_mutex_lock(setup->found);
+}
+static inline void compare_unlock(const compare_setup *setup)
+{
+  if (setup->found) pthread_mutex_unlock(setup->found);
+}
+
 /* Harmonics of the curve that rows of the tables are compared with, at least. Of more than COMPARE_LARGE degrees of
  * freedom such a curve costs minutes, and orbits are known from the comparison's rows or next to coarser solutions. */
 enum { COMPARE_LARGE = 64 };

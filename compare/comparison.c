@@ -43,7 +43,7 @@ static hc_status add_contacts(comparison_work *w, const double *X, const compari
 static hc_status add_solution(comparison_work *w, const hbm_curve *at, int k, const comparison_row *row)
 {
   const compare_setup *setup = w->setup;
-  if (setup->found) pthread_mutex_lock(setup->found);
+  compare_lock(setup);
   hc_status st = add_row(w->out, row, w->state);
   if (st == HC_OK && k >= 0 && setup->contacts) st = add_contacts(w, at->X + (size_t)k * at->n_coef, row);
   for (int r = 1; r < setup->model->n_responses && st == HC_OK && k >= 0; ++r) { /* behind that of the first response */
@@ -51,7 +51,7 @@ static hc_status add_solution(comparison_work *w, const hbm_curve *at, int k, co
     st = solution_turn(w, at, k, r, row, &other);
     if (st == HC_OK) st = add_row(w->out, &other, w->state);
   }
-  if (setup->found) pthread_mutex_unlock(setup->found);
+  compare_unlock(setup);
   if (setup->added) setup->added(setup->added_to);
   return st;
 }
@@ -67,16 +67,17 @@ static hc_status look_around(comparison_work *w, double omega, hbm_curve *at, in
   *first = all->n_rows;
   if (w->setup->survey == 0) return HC_OK;
   const hc_status st = survey_at(w->setup, w->hbm, at, omega, &how, w->monitor, all);
-  return st == HC_OK ? survey_append_beside(all, beside, at) : st;
+  if (st == HC_OK) return survey_append_beside(all, beside, at);
+  return st == HC_NO_MEMORY || st == HC_INTERRUPTED ? st : HC_OK; /* others stay unknown */
 }
 
-/* Motions of the survey, from row `first` on, that do not run on that branch. */
+/* Motions of the survey, from row `first` on, that do not run on that branch; -1: nothing is known. */
 static int count_others(const comparison_work *w, int first, int branch)
 {
   const survey *all = &w->out->survey;
   int n = 0;
   for (int i = first; i < all->n_rows; ++i) n += all->rows[i].steady.response == 0 && all->rows[i].hbm_branch != branch;
-  return w->setup->survey > 0 ? n : -1;
+  return first < all->n_rows ? n : -1;
 }
 
 /* Every HBM solution at omega. */
@@ -124,18 +125,6 @@ static hc_status compare_at(comparison_work *w, double omega)
 
 static const double curve_share = 0.1; /* of the whole work: the response curve, before the frequencies */
 
-/* A part of the whole work, for the monitor of the inner loops. */
-typedef struct progress_part {
-  const hc_monitor *outer;
-  double from, width;
-} progress_part;
-
-static bool tick_part(void *self, double done)
-{
-  const progress_part *s = self;
-  return hc_monitor_tick(s->outer, s->from + s->width * (done > 0 ? done : 0));
-}
-
 static hc_status compare_all(comparison_work *w)
 {
   const hc_monitor *outer = w->monitor;
@@ -147,8 +136,8 @@ static hc_status compare_all(comparison_work *w)
   timeint_rest(w->ti, w->swept);
   for (int i = 0; i < omega.n && st == HC_OK; ++i) {
     const double width = (1 - curve_share) / omega.n;
-    progress_part part = {outer, curve_share + i * width, width};
-    hc_monitor inner = {tick_part, &part};
+    hc_monitor_part part = {outer, curve_share + i * width, width};
+    hc_monitor inner = {hc_monitor_tick_part, &part};
     w->monitor = &inner;
     st = compare_at(w, omega.v[down ? omega.n - 1 - i : i]);
   }
@@ -163,9 +152,9 @@ static hc_status advise(comparison_work *w)
   char text[COMPARISON_ADVICE_TEXT];
   const hc_status st = worst ? remedy_find(w, worst, text) : HC_OK;
   if (st != HC_OK || !worst) return st;
-  if (setup->found) pthread_mutex_lock(setup->found);
+  compare_lock(setup);
   memcpy(w->out->advice, text, sizeof text);
-  if (setup->found) pthread_mutex_unlock(setup->found);
+  compare_unlock(setup);
   return HC_OK;
 }
 
@@ -204,8 +193,8 @@ hc_status comparison_run(const compare_setup *setup, const hc_monitor *monitor, 
   if (st == HC_OK) {
     double from, to;
     comparison_sweep(setup->omega_from, setup->omega_to, &setup->compare.omega, &from, &to);
-    progress_part part = {monitor, 0, curve_share};
-    st = hbm_trace_all(w.hbm, from, to, &(hc_monitor){tick_part, &part}, &out->curve);
+    hc_monitor_part part = {monitor, 0, curve_share};
+    st = hbm_trace_all(w.hbm, from, to, &(hc_monitor){hc_monitor_tick_part, &part}, &out->curve);
     out->harmonics = hbm_n_harmonics(w.hbm);
     out->samples = hbm_n_samples(w.hbm);
     hc_status summed = response_summarise(w.hbm, &out->curve, &out->summary);

@@ -40,24 +40,13 @@ typedef struct steady_work {
   double *scratch;  /* [n_states] of the exact law's orbit next to that */
 } steady_work;
 
-/* While what was found changes, for who looks at it meanwhile. */
-static void lock_found(const steady_work *w)
-{
-  if (w->setup->found) pthread_mutex_lock(w->setup->found);
-}
-
-static void unlock_found(const steady_work *w)
-{
-  if (w->setup->found) pthread_mutex_unlock(w->setup->found);
-}
-
 static hc_status add_row(steady_work *w, const steady_row *row)
 {
   steady_states *s = w->out;
-  lock_found(w);
+  compare_lock(w->setup);
   const bool grown = GROW(s->rows, s->n);
   if (grown) s->rows[s->n++] = *row;
-  unlock_found(w);
+  compare_unlock(w->setup);
   return grown ? HC_OK : HC_NO_MEMORY;
 }
 
@@ -113,7 +102,7 @@ static hc_status steady_settle(steady_work *w, double omega, const char *start, 
     contact_period *periods = calloc((size_t)m->n_contacts + 1, sizeof *periods);
     hc_status measured = periods ? timeint_contacts(w->ti, &row.result, periods) : HC_NO_MEMORY;
     if (measured == HC_OK) contact_periods_merge(m, periods);
-    lock_found(w);
+    compare_lock(w->setup);
     steady_contact *grown = growing_by(out->contacts, out->n_contacts, n, sizeof *grown);
     if (grown) out->contacts = grown;
     else measured = HC_NO_MEMORY;
@@ -122,7 +111,7 @@ static hc_status steady_settle(steady_work *w, double omega, const char *start, 
       *c = (steady_contact){.omega = row.result.omega, .contact = j, .period = periods[j]};
       snprintf(c->start, sizeof c->start, "%s", row.start);
     }
-    unlock_found(w);
+    compare_unlock(w->setup);
     free(periods);
     st = measured == HC_NO_MEMORY ? measured : HC_OK;
   }

@@ -56,17 +56,6 @@ typedef struct survey_work {
 
 static double *state_of(const survey_work *w, int i) { return w->states + (size_t)i * (size_t)w->n_states; }
 
-/* While what was found changes, for who looks at it meanwhile. */
-static void lock_found(const survey_work *w)
-{
-  if (w->setup->found) pthread_mutex_lock(w->setup->found);
-}
-
-static void unlock_found(const survey_work *w)
-{
-  if (w->setup->found) pthread_mutex_unlock(w->setup->found);
-}
-
 static timeint_result *result_of(const survey_work *w, int i)
 {
   return w->results + (size_t)i * (size_t)w->n_responses;
@@ -114,17 +103,6 @@ static hc_status follow_task(void *self, int task, const hc_monitor *monitor)
   return st;
 }
 
-typedef struct progress_part {
-  const hc_monitor *outer;
-  double from, width;
-} progress_part;
-
-static bool tick_part(void *self, double done)
-{
-  const progress_part *p = self;
-  return hc_monitor_tick(p->outer, p->from + p->width * (done > 0 ? done : 0));
-}
-
 /* The first quarter of the starts has the sizes of the linear response and of HBM, the others also those of what that
  * quarter came to. */
 static hc_status follow_all(survey_work *w)
@@ -142,8 +120,8 @@ static hc_status follow_all(survey_work *w)
     w->first = part ? n / 4 : 0;
     for (int i = 0; i < w->first; ++i)
       if (w->status[i] == HC_OK) survey_starts_see(w->starts, state_of(w, i));
-    const progress_part progress = {w->monitor, (double)w->first / n, (double)n_part / n};
-    st = workers_run(w->how->jobs, n_part, follow_task, w, &(hc_monitor){tick_part, (void *)&progress});
+    const hc_monitor_part progress = {w->monitor, (double)w->first / n, (double)n_part / n};
+    st = workers_run(w->how->jobs, n_part, follow_task, w, &(hc_monitor){hc_monitor_tick_part, (void *)&progress});
   }
   return st;
 }
@@ -286,9 +264,9 @@ static hc_status look_beside(survey_work *w, int start, survey_row *row)
       const bool again = out->beside.n > 0 && out->beside.points[out->beside.n - 1].omega == w->omega;
       point.branch = point.part = again ? out->beside.points[out->beside.n - 1].branch + 1 : w->how->first_branch;
       point.d_omega = 1;
-      lock_found(w);
+      compare_lock(w->setup);
       st = hbm_curve_append(&out->beside, longer, X, X + longer, &point);
-      unlock_found(w);
+      compare_unlock(w->setup);
       if (st == HC_OK) st = add_known(w, X, row->hbm_branch = point.branch);
     }
   }
@@ -378,9 +356,9 @@ static hc_status measure_motions(survey_work *w)
     if (st == HC_OK) st = measure_motion(w, i, n_made, &rows[n]);
     if (st == HC_OK) rows[n++].motion = i;
   }
-  lock_found(w);
+  compare_lock(w->setup);
   if (st == HC_OK) st = add_rows(w, n, rows);
-  unlock_found(w);
+  compare_unlock(w->setup);
   free(rows);
   return st;
 }
@@ -453,8 +431,8 @@ hc_status survey_run(const compare_setup *setup, const survey_settings *given, c
   if (setup->compare.omega.n == 0) return HC_BAD_INPUT;
   hc_status st = comparison_frequencies(&setup->compare, setup->omega_from, NULL, &(hbm_curve){0}, &asked);
   if (st != HC_OK) return st;
-  progress_part part = {monitor, 0, curve_share};
-  const hc_monitor inner = {tick_part, &part};
+  hc_monitor_part part = {monitor, 0, curve_share};
+  const hc_monitor inner = {hc_monitor_tick_part, &part};
   st = response_trace(setup, &asked, &inner, &response);
   survey_settings how = *given;
   how.first_branch = survey_first_branch(&response.curve);

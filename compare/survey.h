@@ -31,7 +31,7 @@ typedef struct survey_row {
   double hbm_error; /* [1] waveform of the first response against that one, as a comparison has it; else NaN */
 } survey_row;
 
-/* Of a model of one degree of freedom: where a start began, by the first response. */
+/* Where a start began, by the first response, of a model of one degree of freedom. */
 typedef struct survey_start {
   double omega; /* [rad/time] */
   double x, v;  /* [length], [length/time] at t = 0; its sliders are not kept */

@@ -10,8 +10,8 @@
  * them begin, as at first. */
 void hbm_start_sliders(hbm_solver *s, const double *w);
 
-/* Of the solution X: w[n_contacts] as hbm_sliders, and which are free; two tangents under one limit both or none.
- * Errors of the contact force. */
+/* w[n_contacts] as hbm_sliders, and which of them are free in the solution X; two tangents under one limit both or
+ * none. Errors of the contact force. */
 hc_status hbm_free_sliders(hbm_solver *s, const double *X, double *w, bool *free);
 
 /* dX[n_coef]: how the solution that hbm_solve found last moves with free slider j. By dR/dw = -kt t_j in the means, and

@@ -46,6 +46,17 @@ static inline bool hc_monitor_tick(const hc_monitor *m, double done)
   return !m || !m->tick || m->tick(m->self, done);
 }
 
+/* A part of the whole work, the self of hc_monitor_tick_part: its fraction becomes that of the whole. */
+typedef struct hc_monitor_part {
+  const hc_monitor *outer;
+  double from, width;
+} hc_monitor_part;
+static inline bool hc_monitor_tick_part(void *self, double done)
+{
+  const hc_monitor_part *p = (const hc_monitor_part *)self;
+  return hc_monitor_tick(p->outer, p->from + p->width * (done > 0 ? done : 0));
+}
+
 /* The tick of a monitor whose self is another monitor or NULL: passes each tick on to it with an unknown fraction. For
  * a part of the work whose fraction is not that of the whole. */
 static inline bool hc_monitor_tick_aside(void *self, double done)

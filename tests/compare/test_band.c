@@ -102,6 +102,29 @@ static void a_band_leaves_no_trace(CHECK_STATE)
   comparison_clear(&without);
 }
 
+/* The family is the same whichever of its members the solution is: sliders that begin elsewhere, inside or beyond a
+ * limit. */
+static void every_member_has_the_same_band(CHECK_STATE)
+{
+  static const char *const wedge[] = {"transient.rest={b: 0}", "transient.rest={b: 9e-5}", "transient.rest={b: 1e-3}"},
+                           *const holds[] = {"transient.rest={hold: 0}", "transient.rest={hold: 0.2, help: -0.1}",
+                                             "transient.rest={hold: -2, help: 0.1}"};
+  for (int c = 0; c < 2; ++c) {
+    double low = NAN, high = NAN;
+    for (int i = 0; i < 3; ++i) {
+      const char *const set[] = {c ? holds[i] : wedge[i], c ? "compare.omega=1.15" : "compare.frequency=219"};
+      comparison of;
+      compare_case(c ? "bands/two_holds" : "bands/wedge", 2, set, &of);
+      const band *b = &of.rows[0].band;
+      assert_true(b->confirmed);
+      if (i == 0) low = b->low, high = b->high;
+      CHECK_NEAR(b->low / low, 1, 1e-9, "%s: least amplitude", set[0]);
+      CHECK_NEAR(b->high / high, 1, 1e-9, "%s: largest amplitude", set[0]);
+      comparison_clear(&of);
+    }
+  }
+}
+
 /* By the argument of band.h: no system is solved for it. */
 static void constant_normal_forces_need_no_search(CHECK_STATE)
 {
@@ -274,6 +297,6 @@ static void drawn_sliders_come_to_rest_inside(CHECK_STATE)
 CHECK_TESTS_AND_LONG("band", 300,
                      (the_seats_ends_are_those_of_one_mass, an_extremum_between_the_ends_is_found,
                       the_wedges_bands_are_the_references, constant_normal_forces_need_no_search,
-                      a_band_leaves_no_trace, transients_stay_on_the_ends, the_gate_may_limit_the_width,
-                      drawn_sliders_come_to_rest_inside),
+                      a_band_leaves_no_trace, every_member_has_the_same_band, transients_stay_on_the_ends,
+                      the_gate_may_limit_the_width, drawn_sliders_come_to_rest_inside),
                      (drawn_sliders_come_to_rest_inside))

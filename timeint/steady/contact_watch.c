@@ -45,7 +45,7 @@ static double motion_of(const contact_watch *w, const double *q, int j, double u
   return contact_rows_at(q, w->rows.across[j]);
 }
 
-/* Of a contact in stick, T' = kt u', and of a circle |T|' = kt (u - w).u'/|u - w|, the product being at->du. */
+/* In stick T' = kt u', and of a circle |T|' = kt (u - w).u'/|u - w|, the product being at->du. */
 static void find_rooms(const law_regularised *law, bool circle, const planar_value *value, contact_instant *at)
 {
   const double limit = law->mu * value->n, of_limit = law->mu * law->kn * at->dv;
