@@ -173,7 +173,6 @@ static hc_status make_states(comparison_work *w)
   w->budgets = workspace_array(memory, responses, sizeof *w->budgets);
   w->bands = workspace_array(memory, responses, sizeof *w->bands);
   const size_t longest = (size_t)(2 * HBM_MAX_HARMONICS + 1) * (size_t)w->setup->model->n;
-  w->moving = workspace_doubles(memory, longest);
   w->beside = workspace_doubles(memory, longest);
   w->moved = workspace_doubles(memory, w->setup->reduction > 0 ? 2 * longest : 0);
   w->acting = workspace_array(memory, contacts, sizeof *w->acting);

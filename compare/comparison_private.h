@@ -27,7 +27,6 @@ struct comparison_work {
   periodic_motion *motions;
   error_budget *budgets;
   band *bands;    /* [n_responses] */
-  double *moving; /* [2H+1][n] harmonics of a transient's motion */
   double *beside; /* [n_coef] a solution that the transient of the row runs on, and the curve has not come to */
   bool looked_beside, has_beside;
   double *moved; /* [2][n_coef] of from_reduction; as long as any solution may be */

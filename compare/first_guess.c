@@ -70,18 +70,23 @@ static hc_status ask(void *self, const model *m, double omega, int n_harm, const
   return st == HC_OK ? harmonics(g, m->n, n_harm, &r, x) : st;
 }
 
-hc_status harmonics_of_motion(const model *m, const transient_settings *how, double omega, const double *state,
-                              int n_harm, const hc_monitor *monitor, double *X)
+hc_status solution_of_motion(hbm_solver *s, const model *m, const transient_settings *how, double omega,
+                             const double *state, const hc_monitor *monitor, double *X, hbm_point *point)
 {
   guide g = {0};
   timeint_result r;
   if (m->n > MOST_DOF) return HC_UNSUPPORTED;
-  hc_status st = make(&g, m, how);
+  const int n_harm = hbm_n_harmonics(s);
+  double *x = calloc((size_t)(2 * n_harm + 1) * (size_t)m->n, sizeof *x);
+  hc_status st = x ? make(&g, m, how) : HC_NO_MEMORY;
   if (st == HC_OK) memcpy(g.state, state, (size_t)timeint_n_states(g.ti) * sizeof *state);
   if (st == HC_OK) st = timeint_orbit(g.ti, omega, 1, g.state, monitor, &r);
-  if (st == HC_OK) st = harmonics(&g, m->n, n_harm, &r, X);
+  if (st == HC_OK) st = harmonics(&g, m->n, n_harm, &r, x);
+  if (st == HC_OK) hbm_guess_of(s, x, X);
+  if (st == HC_OK) st = hbm_solve(s, omega, X, point);
   timeint_free(g.ti);
   free(g.state);
+  free(x);
   return st;
 }
 

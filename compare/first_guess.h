@@ -9,7 +9,7 @@
 /* hbm_solver_new, and the guess. */
 hc_status guided_hbm_solver_new(const model *m, const hbm_settings *how, hbm_solver **out);
 
-/* X[(2 n_harm + 1) n]: the harmonics of all DOFs of the orbit next to state[n_states], by time integration as in *how.
- * HC_UNSUPPORTED of more than 100 DOFs; errors of timeint_orbit. */
-hc_status harmonics_of_motion(const model *m, const transient_settings *how, double omega, const double *state,
-                              int n_harm, const hc_monitor *monitor, double *X);
+/* X[hbm_n_coefficients]: the solution that Newton comes to from the harmonics of the orbit next to state[n_states], by
+ * time integration of m as in *how. HC_UNSUPPORTED of more than 100 DOFs; errors of timeint_orbit and hbm_solve. */
+hc_status solution_of_motion(hbm_solver *s, const model *m, const transient_settings *how, double omega,
+                             const double *state, const hc_monitor *monitor, double *X, hbm_point *point);

@@ -60,15 +60,11 @@ static hc_status runs_on_any(const comparison_work *w, int r, const hbm_curve *a
  * for all responses. HC_NO_MEMORY, HC_INTERRUPTED; else w->has_beside says whether w->beside is one. */
 static hc_status look_beside(comparison_work *w, double omega)
 {
-  double *x = w->moving; /* harmonics of all degrees of freedom */
   hbm_point point;
   if (w->looked_beside) return HC_OK;
   w->looked_beside = true;
-  hc_status st = harmonics_of_motion(w->setup->model, &w->setup->transient, omega, w->state, hbm_n_harmonics(w->hbm),
-                                     w->monitor, x);
-  if (st == HC_OK && !w->setup->hbm.keep_mean) memset(x, 0, (size_t)hbm_n_dof(w->hbm) * sizeof *x);
-  if (st == HC_OK) hbm_guess_of(w->hbm, x, w->beside);
-  if (st == HC_OK) st = hbm_solve(w->hbm, omega, w->beside, &point);
+  const hc_status st =
+      solution_of_motion(w->hbm, w->setup->model, &w->setup->transient, omega, w->state, w->monitor, w->beside, &point);
   w->has_beside = st == HC_OK;
   return st == HC_NO_MEMORY || st == HC_INTERRUPTED ? st : HC_OK;
 }

@@ -231,13 +231,10 @@ static bool runs_on_known(const survey_work *w, int motion, survey_row *row)
 }
 
 /* X[n_coef]: Newton from the harmonics of the motion; HC_NOT_CONVERGED where that comes to another one. */
-static hc_status solve_beside(survey_work *w, int start, double *x, double *X, hbm_point *point, periodic_motion *found)
+static hc_status solve_beside(survey_work *w, int start, double *X, hbm_point *point, periodic_motion *found)
 {
-  const int H = hbm_n_harmonics(w->hbm);
-  hc_status st = harmonics_of_motion(w->setup->model, &w->transient, w->omega, state_of(w, start), H, w->monitor, x);
-  if (st == HC_OK && !w->setup->hbm.keep_mean) memset(x, 0, (size_t)hbm_n_dof(w->hbm) * sizeof *x);
-  if (st == HC_OK) hbm_guess_of(w->hbm, x, X);
-  if (st == HC_OK) st = hbm_solve(w->hbm, w->omega, X, point);
+  hc_status st =
+      solution_of_motion(w->hbm, w->setup->model, &w->transient, w->omega, state_of(w, start), w->monitor, X, point);
   if (st == HC_OK) st = motion_of_response(w->hbm, w->omega, X, 0, NULL, found);
   if (st != HC_OK) return st;
   const periodic_motion here = motion_of_transient(result_of(w, start));
@@ -249,11 +246,10 @@ static hc_status look_beside(survey_work *w, int start, survey_row *row)
 {
   const double newton = 1e-6; /* [amplitude] two solutions by Newton are apart, even next to a fold: 1e-10 squared */
   const int n = hbm_n_coefficients(w->hbm), longer = n > w->at->n_coef ? n : w->at->n_coef;
-  double *x = calloc((size_t)(2 * hbm_n_harmonics(w->hbm) + 1) * (size_t)w->setup->model->n, sizeof *x);
   double *X = calloc(2 * (size_t)longer, sizeof *X); /* and a tangent, which is not known */
   hbm_point point;
   periodic_motion found;
-  hc_status st = x && X ? solve_beside(w, start, x, X, &point, &found) : HC_NO_MEMORY;
+  hc_status st = X ? solve_beside(w, start, X, &point, &found) : HC_NO_MEMORY;
   if (st == HC_OK) {
     const periodic_motion here = motion_of_transient(result_of(w, start));
     row->hbm_error = motion_discrepancy(&found, &here).waveform;
@@ -271,7 +267,6 @@ static hc_status look_beside(survey_work *w, int start, survey_row *row)
     }
   }
   free(X);
-  free(x);
   return st == HC_NO_MEMORY || st == HC_INTERRUPTED ? st : HC_OK;
 }
 

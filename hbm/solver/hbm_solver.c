@@ -3,6 +3,7 @@
 #include "hbm/solver/hbm_solver.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "hbm/solver/corrector.h"
 #include "hbm/solver/hbm_solver_impl.h"
@@ -151,6 +152,7 @@ void hbm_guess_of(const hbm_solver *s, const double *x, double *X)
   const hbm_system *sys = &s->sys;
   for (int c = 0; c < series_length(sys->n_harm); ++c)
     condensation_coordinates(sys->linear, x + (size_t)c * (size_t)s->model->n, X + (size_t)c * (size_t)sys->dim);
+  memset(X, 0, (size_t)sys->first * sizeof *X); /* the means, where they are left out */
 }
 
 int hbm_n_samples(const hbm_solver *s) { return s->how.force == HBM_FORCE_SAMPLED ? s->n_time : 0; }

@@ -249,9 +249,31 @@ static void a_solution_on_an_isola(CHECK_STATE)
   }
 }
 
-/* Stopped: what was made is kept, with shares of that. */
-/* The comparison with a survey has a row of the isola's solution, and says of each that there is one motion elsewhere.
- * */
+/* The same mass as the second of two: the coordinates that harmonic balance solves for are not the degrees of freedom. */
+static void a_solution_on_an_isola_of_a_structure(CHECK_STATE)
+{
+  static const char text[] =
+      "structure: {mass: [1, 1], damping: [1, 0.4], stiffness: [300, 40]}\n"
+      "forcing: [{dof: 2, amplitude: 200}]\n"
+      "contacts:\n"
+      "  - {tangential_stiffness: 3, normal_stiffness: 180, friction: 0.1, gap: -8, tangent: {2: 0.5},\n"
+      "     normal: {2: 0.8660254037844386}}\n"
+      "  - {tangential_stiffness: 350, normal_stiffness: 1400, friction: 0.1, gap: -8, tangent: {2: 0.5},\n"
+      "     normal: {2: -0.8660254037844386}}\n"
+      "response: [2]\nsweep: {omega: [1, 30]}\nhbm: {harmonics: 40}\n";
+  case_error err;
+  CHECK_FILLED(scene, sc, case_parse("case", text, strlen(text), 0, NULL, &sc, &err));
+  surveyed s = run(&sc, 3.6, 60, 2, NULL);
+  assert_int_equal(s.found.beside.n, 1);
+  bool found = false;
+  for (int i = 0; i < s.found.n_rows; ++i) found |= s.found.rows[i].hbm_branch == s.first_branch;
+  assert_true(found);
+  clear(&s);
+  case_clear(&sc);
+}
+
+/* The comparison with a survey has a row of the isola's solution, and says of each that there is one motion
+ * elsewhere. */
 static void a_comparison_lists_the_isola(CHECK_STATE)
 {
   scene sc = case_scene("adversarial/isola", 0, NULL);
@@ -272,6 +294,7 @@ static void a_comparison_lists_the_isola(CHECK_STATE)
   scene_setup_clear(&setup);
 }
 
+/* Stopped: what was made is kept, with shares of that. */
 static void a_stop_keeps_what_was_made(CHECK_STATE)
 {
   const scene sc = case_scene("paper/case2", 0, NULL);
@@ -316,4 +339,5 @@ static void starts_are_admissible(CHECK_STATE)
 
 CHECK_TESTS("compare.survey", 60, sub_harmonics_of_case_2, starts_are_kept, two_branches_of_case_2,
             threads_change_nothing, a_family_is_one_motion, a_solution_beside_the_curve, a_solution_on_an_isola,
-            a_comparison_lists_the_isola, a_large_start_is_no_escape, a_stop_keeps_what_was_made, starts_are_admissible)
+            a_solution_on_an_isola_of_a_structure, a_comparison_lists_the_isola, a_large_start_is_no_escape,
+            a_stop_keeps_what_was_made, starts_are_admissible)
