@@ -249,8 +249,7 @@ static void a_solution_on_an_isola(CHECK_STATE)
   }
 }
 
-/* The same mass as the second of two: the coordinates that harmonic balance solves for are not the degrees of freedom.
- * */
+/* The same mass as the second of two: harmonic balance solves for other coordinates than the degrees of freedom. */
 static void a_solution_on_an_isola_of_a_structure(CHECK_STATE)
 {
   static const char text[] =
